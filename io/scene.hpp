@@ -1,0 +1,121 @@
+// What a scene file says, checked and with every default filled in. Plain data: the engine turns it into a simulation.
+// SI units throughout. The keys are documented in benchmarks/SCENES.md; io/scene_reader.hpp reads them.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aquagraph::io {
+
+using Point = std::array<double, 2>;
+
+struct Box {
+    Point min{}, max{};
+};
+
+struct SourcePosition {
+    int line = 0, column = 0;
+};
+
+enum class Reconstruction { muscl, none };
+enum class Slip { free, none };
+enum class DomainEdge { closed, open };
+enum class InitialPressure { hydrostatic, zero };
+
+struct FluidScene {
+    double spacing = 0;              // Δx [m]
+    double density = 1000;           // ρ0 [kg/m³]
+    double sound_speed = 0;          // c0 [m/s]
+    double polytropic_exponent = 7;  // γ of the Tait equation
+    double support_ratio = 4;        // R/Δx
+    double cfl = 0.375;              // K of Δt = K R/c
+    Reconstruction reconstruction = Reconstruction::muscl;
+    InitialPressure initial_pressure = InitialPressure::hydrostatic;
+    std::optional<double> surface_level;  // y at which p = 0 [m]; default: the highest top of the boxes
+    std::vector<Box> boxes;               // filled with particles at the centres of Δx cells
+};
+
+// A polyline; the fluid lies on the left of the direction of travel.
+struct WallScene {
+    std::string name;
+    std::vector<Point> points;
+    bool closed = false;
+    Slip slip = Slip::free;
+};
+
+enum class MaterialLaw { saint_venant_kirchhoff, neo_hookean };
+enum class PlaneCondition { strain, stress };
+enum class SolidScheme { hht, newmark };
+
+struct Clamp {
+    std::string set;              // node set: left, right, bottom, top of a box; a physical group of a mesh
+    std::array<bool, 2> fixed{};  // x, y
+};
+
+struct Track {
+    std::string name;  // columns NAME_x[m], NAME_y[m]: displacement of the node nearest to point
+    Point point{};
+};
+
+struct SolidScene {
+    std::string name = "solid";
+    std::optional<Box> box;              // either a box, meshed with elements[0] × elements[1] quadrilaterals …
+    std::array<int, 2> elements{};       //
+    std::filesystem::path mesh;          // … or a Gmsh 4.1 file (absolute once read)
+    double density = 0;                  // ρ_S [kg/m³]
+    double youngs_modulus = 0;           // E [Pa]
+    double poissons_ratio = 0;           // ν
+    MaterialLaw law = MaterialLaw::saint_venant_kirchhoff;
+    PlaneCondition plane = PlaneCondition::strain;
+    SolidScheme scheme = SolidScheme::hht;
+    double alpha = -0.3;                 // αs in ]-1/3, 0]
+    bool static_start = false;           // equilibrium under its own weight before t = 0
+    std::vector<Clamp> clamps;
+    std::vector<std::string> wet;        // surface sets that touch the fluid
+    std::vector<Track> tracks;
+};
+
+enum class CouplingAlgorithm { cps, css };
+
+struct CouplingScene {
+    CouplingAlgorithm algorithm = CouplingAlgorithm::cps;
+    int ratio = 1;                // p: fluid steps per solid step
+    double step_fraction = 0.8;   // of the CFL step, at which the steps of a cycle are fixed (6.4)
+};
+
+struct OutputScene {
+    double frame_interval = 0;    // [s]
+    double history_interval = 0;  // [s]; 0: every coupling cycle
+};
+
+struct Compare {
+    std::string column;              // of history.csv, without the unit: "tip_x"
+    std::filesystem::path file;      // (absolute once read) two columns, comma, tab or blanks; lines of text are skipped
+    std::string label;               // for the report: "Antoci et al. 2007, experiment"
+    std::array<double, 2> window{};  // [s]
+    double time_scale = 1, value_scale = 1, value_offset = 0;  // t = time_scale * column 1; v = value_scale * column 2 + value_offset
+    bool error = true;               // false: drawn in the report, not part of the summary's errors
+};
+
+struct Scene {
+    std::filesystem::path file;  // absolute path of the scene file
+    std::string name;            // folder of results: <folder>_<file stem> or just <folder> for scene.toml
+    std::string title;
+    std::string text;            // the file as read
+    double end_time = 0;         // [s]
+    Point gravity{0, -9.81};     // [m/s²]
+    Box domain;                  // particles outside it have left
+    DomainEdge edge = DomainEdge::closed;  // closed: leaving it is an error; open: they are taken out and counted
+    std::optional<FluidScene> fluid;
+    std::vector<WallScene> walls;
+    std::optional<SolidScene> solid;
+    CouplingScene coupling;
+    OutputScene output;
+    std::vector<Compare> comparisons;
+    std::map<std::string, SourcePosition> positions;  // dotted key ("solid.wet[1]") -> where it stands in the file
+};
+
+}  // namespace aquagraph::io
