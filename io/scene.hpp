@@ -62,19 +62,19 @@ struct Track {
 
 struct SolidScene {
     std::string name = "solid";
-    std::optional<Box> box;              // either a box, meshed with elements[0] × elements[1] quadrilaterals …
-    std::array<int, 2> elements{};       //
-    std::filesystem::path mesh;          // … or a Gmsh 4.1 file (absolute once read)
-    double density = 0;                  // ρ_S [kg/m³]
-    double youngs_modulus = 0;           // E [Pa]
-    double poissons_ratio = 0;           // ν
+    std::optional<Box> box;         // either a box, meshed with elements[0] × elements[1] quadrilaterals …
+    std::array<int, 2> elements{};  //
+    std::filesystem::path mesh;     // … or a Gmsh 4.1 file (absolute once read)
+    double density = 0;             // ρ_S [kg/m³]
+    double youngs_modulus = 0;      // E [Pa]
+    double poissons_ratio = 0;      // ν
     MaterialLaw law = MaterialLaw::saint_venant_kirchhoff;
     PlaneCondition plane = PlaneCondition::strain;
     SolidScheme scheme = SolidScheme::hht;
-    double alpha = -0.3;                 // αs in ]-1/3, 0]
-    bool static_start = false;           // equilibrium under its own weight before t = 0
+    double alpha = -0.3;        // αs in ]-1/3, 0]
+    bool static_start = false;  // equilibrium under its own weight before t = 0
     std::vector<Clamp> clamps;
-    std::vector<std::string> wet;        // surface sets that touch the fluid
+    std::vector<std::string> wet;  // surface sets that touch the fluid
     std::vector<Track> tracks;
 };
 
@@ -82,8 +82,8 @@ enum class CouplingAlgorithm { cps, css };
 
 struct CouplingScene {
     CouplingAlgorithm algorithm = CouplingAlgorithm::cps;
-    int ratio = 1;                // p: fluid steps per solid step
-    double step_fraction = 0.8;   // of the CFL step, at which the steps of a cycle are fixed (6.4)
+    int ratio = 1;               // p: fluid steps per solid step
+    double step_fraction = 0.8;  // of the CFL step, at which the steps of a cycle are fixed (6.4)
 };
 
 struct OutputScene {
@@ -92,22 +92,23 @@ struct OutputScene {
 };
 
 struct Compare {
-    std::string column;              // of history.csv, without the unit: "tip_x"
-    std::filesystem::path file;      // (absolute once read) two columns, comma, tab or blanks; lines of text are skipped
-    std::string label;               // for the report: "Antoci et al. 2007, experiment"
+    std::string column;          // of history.csv, without the unit: "tip_x"
+    std::filesystem::path file;  // (absolute once read) two columns, comma, tab or blanks; lines of text are skipped
+    std::string label;           // for the report: "Antoci et al. 2007, experiment"
     std::array<double, 2> window{};  // [s]
-    double time_scale = 1, value_scale = 1, value_offset = 0;  // t = time_scale * column 1; v = value_scale * column 2 + value_offset
-    bool error = true;               // false: drawn in the report, not part of the summary's errors
+    double time_scale = 1, value_scale = 1,
+           value_offset = 0;  // t = time_scale * column 1; v = value_scale * column 2 + value_offset
+    bool error = true;        // false: drawn in the report, not part of the summary's errors
 };
 
 struct Scene {
     std::filesystem::path file;  // absolute path of the scene file
     std::string name;            // folder of results: <folder>_<file stem> or just <folder> for scene.toml
     std::string title;
-    std::string text;            // the file as read
-    double end_time = 0;         // [s]
-    Point gravity{0, -9.81};     // [m/s²]
-    Box domain;                  // particles outside it have left
+    std::string text;                      // the file as read
+    double end_time = 0;                   // [s]
+    Point gravity{0, -9.81};               // [m/s²]
+    Box domain;                            // particles outside it have left
     DomainEdge edge = DomainEdge::closed;  // closed: leaving it is an error; open: they are taken out and counted
     std::optional<FluidScene> fluid;
     std::vector<WallScene> walls;

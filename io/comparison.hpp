@@ -1,0 +1,42 @@
+// How far a computed column is from a reference curve.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/history.hpp"
+#include "io/scene.hpp"
+
+namespace aquagraph::io {
+
+struct Curve {
+    std::vector<double> time;   // [s], ascending
+    std::vector<double> value;  // in the unit of the column
+};
+
+// Two columns parted by commas, semicolons, tabs or blanks; lines that do not start with two numbers are skipped. The
+// scales and the offset of `compare` are applied and the points put in ascending time. Throws std::system_error where
+// the file cannot be read and std::runtime_error where it holds no point.
+Curve read_reference(const Compare& compare);
+
+struct Comparison {
+    std::string column, unit, label;
+    std::filesystem::path file;
+    bool error = true;                 // false: drawn only
+    std::array<double, 2> window{};    // [s]
+    Curve reference;                   // the whole of it
+    std::size_t points = 0;            // reference points compared: inside the window and the computed time
+    std::size_t points_in_window = 0;  // more than `points` where the run ended before the window
+    double rms = 0;                    // root mean square of computed - reference [unit]
+    double peak = 0;                   // largest |reference| in the window [unit]
+    double normalised = 0;             // rms / peak; 0 where peak is 0
+    double largest = 0;                // largest |computed - reference| [unit]
+    double largest_time = 0;           // where that is [s]
+};
+
+// The computed column, interpolated linearly at the times of the reference. With no point to compare all errors are
+// NaN. Throws std::out_of_range where the history has no such column.
+Comparison compare_with(const Compare& compare, const History& history);
+
+}  // namespace aquagraph::io
