@@ -1,0 +1,129 @@
+// The elastic body as the coupling drives it: total Lagrangian finite elements with large displacements, implicit in
+// time. Give it the nodal forces at the end of a step, it gives back where the nodes are.
+//
+// Equation of motion at t_n+1 (C. Hermange, thesis, Centrale Nantes 2017, (3.37), (3.44); Hilber, Hughes & Taylor
+// 1977):
+//   M a_n+1 + (1 + α) F_int(u_n+1) - α F_int(u_n) = (1 + α) F_ext_n+1 - α F_ext_n          F_ext: loads and gravity
+// with Newmark's update (3.38)-(3.39), γ = 1/2 - α and β = (1 - α)²/4 (3.45)-(3.46). "Newmark" has the same γ and β
+// and no weighting of forces: M a_n+1 + F_int(u_n+1) = F_ext_n+1.
+//
+// Arrays over nodes are interleaved: x and y of node 0, x and y of node 1, …: 2 × nodes numbers. SI units; loads are
+// those on the whole thickness [N].
+#pragma once
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "physics/block_loop.hpp"
+#include "physics/solid/mesh.hpp"
+
+namespace aquagraph::solid {
+
+enum class MaterialLaw { saint_venant_kirchhoff, neo_hookean };
+enum class PlaneCondition { strain, stress };
+enum class Scheme { hht, newmark };
+
+// Every node of a set keeps its reference position in the directions marked (x, y).
+struct Clamp {
+    std::string set;
+    std::array<bool, 2> fixed{};
+};
+
+struct Options {
+    MaterialLaw law = MaterialLaw::saint_venant_kirchhoff;
+    PlaneCondition plane = PlaneCondition::strain;
+    double youngs_modulus = 0;        // E > 0 [Pa]
+    double poissons_ratio = 0;        // ν in ]-1, 1/2[
+    double density = 0;               // ρ_S > 0 [kg/m³], in the reference configuration
+    double thickness = 1;             // > 0 [m], in the reference configuration
+    std::array<double, 2> gravity{};  // [m/s²]
+    Scheme scheme = Scheme::hht;
+    double alpha = -0.3;  // αs in ]-1/3, 0]
+    std::vector<Clamp> clamps;
+    double residual_tolerance = 1e-8;   // of the largest of |F_ext|, |F_int|, |M a| (Euclidean norms over free nodes)
+    double increment_tolerance = 1e-6;  // of |u_n+1 - u_n|: bounds the displacement error that Newton leaves
+    int max_iterations = 30;            // of one Newton solve
+};
+
+// Newton did not converge, or the stiffness is not positive definite. The solver has gone back to the last accepted
+// state.
+class ConvergenceError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+struct Energies {        // [J]
+    double kinetic = 0;  // 1/2 v·M v
+    double strain = 0;   // ∫ W dV, over the reference configuration
+    double external_work =
+        0;  // of the loads without gravity, trapezoidal in time, since the start or the last solve_static
+    double gravity_potential = 0;  // -F_gravity·u, zero in the reference configuration
+};
+
+struct Statistics {
+    long steps = 0;              // calls of advance
+    long newton_iterations = 0;  // linear solves, all steps and static solves together
+    long factorisations = 0;     // numeric Cholesky factorisations
+    int last_iterations = 0;     // of the last step
+    double last_residual = 0;    // |r| / reference at the end of the last step
+};
+
+// Everything that the next step depends on, to write to a checkpoint.
+struct State {
+    std::vector<double> displacements, velocities, accelerations;  // 2 × nodes
+    std::vector<double> external_forces;                           // loads of the last step, without gravity
+    bool accelerations_known = false;
+    double external_work = 0;
+    Statistics statistics;
+};
+
+class Solver {
+  public:
+    // Throws std::invalid_argument for an option out of range, a clamp of an unknown set (naming those that exist), a
+    // neo-Hookean law in plane stress, and MeshError for a mesh that check() refuses.
+    Solver(Mesh mesh, const Options& options);
+    ~Solver();
+    Solver(Solver&&) noexcept;
+    Solver& operator=(Solver&&) noexcept;
+
+    // Static equilibrium under gravity and these loads (2 × nodes), reached from the present displacements by load
+    // increments that are halved where Newton fails. Velocities and accelerations become zero, external_work restarts
+    // at zero. Throws ConvergenceError, leaving the solver as it was.
+    void solve_static(std::span<const double> external_forces, BlockLoop loop);
+
+    // One step of size dt > 0 [s]; external_forces (2 × nodes) act at its end. Those at its start are the ones of the
+    // step before; the first step takes its loads as constant, and its initial acceleration from M a = F_ext - F_int.
+    // Throws ConvergenceError, leaving the solver as it was, and std::invalid_argument for sizes or dt out of range.
+    // Bitwise the same for any loop. Allocates nothing, unless it factorises.
+    void advance(double dt, std::span<const double> external_forces, BlockLoop loop);
+
+    const Mesh& mesh() const;
+    const Options& options() const;
+    std::span<const double> positions() const;      // X + u [m]
+    std::span<const double> displacements() const;  // u [m]
+    std::span<const double> velocities() const;     // [m/s]
+    std::span<const double> accelerations() const;  // [m/s²]
+
+    Energies energies() const;  // computed when asked for
+    Statistics statistics() const;
+    double mass() const;                 // [kg]
+    double largest_stable_step() const;  // [s]: infinite, both schemes are unconditionally stable
+
+    // Von Mises equivalent of the Cauchy stress, mean of an element's Gauss points [Pa]. von_mises: one per element.
+    void element_stress(std::span<double> von_mises) const;
+
+    // What save() writes, restore() of a solver built from the same mesh and options reads; both continue with the same
+    // bits. To that end save() drops the present factorisation as restore() does: both factorise in their next step.
+    void save(State& state);
+    void restore(const State& state);  // throws std::invalid_argument for sizes that do not fit
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace aquagraph::solid
