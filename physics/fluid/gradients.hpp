@@ -1,0 +1,31 @@
+// Renormalised gradients of pressure and velocity (thesis (2.40), (2.41)):
+//     B_i = [Σ_j (x_j - x_i) ⊗ ∇W_ij ω_j]^-1,   <∇φ>_i = B_i Σ_j (φ_j - φ_i) ∇W_ij ω_j      exact on linear fields,
+// and the fullness λ_i, the smallest eigenvalue of B_i^-1 (Marrone et al. 2010): below 0.2 (splash, thin sheet) B is
+// meaningless and the gradients are set to zero, so that the reconstruction falls back to first order there.
+#pragma once
+#include "physics/fluid/kernel.hpp"
+#include "physics/fluid/neighbour_lists.hpp"
+
+namespace aquagraph::fluid {
+
+inline constexpr double fullness_to_reconstruct = 0.2;
+
+// Writes grad_p, grad_v and fullness of the fluid particles of one block. Reads x, v, p, volume of fluid and ghosts.
+template <int D>
+void compute_gradients(Particles<D>& particles, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
+                       std::size_t block);
+
+// B^-1 = m, symmetric: returns its smallest eigenvalue and replaces m by its inverse where that eigenvalue exceeds
+// `threshold`. m holds the upper triangle row by row: xx xy yy, or xx xy xz yy yz zz.
+template <int D>
+double invert_moment(double (&m)[D * (D + 1) / 2], double threshold);
+template <>
+double invert_moment<2>(double (&m)[3], double threshold);
+template <>
+double invert_moment<3>(double (&m)[6], double threshold);
+
+extern template void compute_gradients(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&, std::size_t);
+extern template void compute_gradients(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&, std::size_t);
+
+
+}  // namespace aquagraph::fluid

@@ -1,0 +1,50 @@
+// The one loop over pairs that every pair pass uses.
+//
+// A pass is a struct with
+//     Own   what it needs of particle i, loaded once:          Own load(i)
+//     Sum   W lanes of each accumulated quantity, all zero
+//     pair(own, j, seen, sum, lane)   one pair, plain arithmetic without branches; seen is 1 or, where a wall hides j, 0
+//     store(i, own, sum)
+// The lane loop is vectorised by `omp simd`. GCC gives up as soon as pair() is not inlined or writes to memory that it
+// cannot prove private, so `aquagraph run` prints pairs/s of every pass: a fall to a quarter is a bug.
+#pragma once
+#include <algorithm>
+#include <span>
+
+#include "physics/fluid/neighbour_lists.hpp"
+
+namespace aquagraph::fluid {
+
+template <int D, class Pass>
+[[gnu::flatten]] void pair_loop(const Particles<D>& particles, const NeighbourLists<D>& lists, std::size_t block,
+                                const Pass& pass) {
+    const NeighbourBlock& list = lists.blocks[block];
+    const std::size_t begin = block * clusters_per_block * W,
+                      end = std::min(particles.count, begin + clusters_per_block * W);
+    const std::uint32_t* const open = list.open.data();
+    const std::uint32_t* const masked = list.masked.data();
+    for (std::size_t i = begin; i < end; ++i) {
+        const auto own = pass.load(i);
+        typename Pass::Sum sum{};
+        const auto from = list.particle[i - begin], to = list.particle[i - begin + 1];
+        for (std::uint32_t k = from.open_end; k < to.open_end; ++k) {
+            const std::size_t j = std::size_t(open[k]) * W;
+#pragma omp simd
+            for (std::size_t l = 0; l < W; ++l) pass.pair(own, j + l, 1.0, sum, l);
+        }
+        for (std::uint32_t k = from.masked_end; k < to.masked_end; ++k) {
+            const std::size_t j = std::size_t(masked[k]) * W;
+            const unsigned mask = list.mask[k];
+#pragma omp simd
+            for (std::size_t l = 0; l < W; ++l) pass.pair(own, j + l, double((mask >> l) & 1u), sum, l);
+        }
+        pass.store(i, own, sum);
+    }
+}
+
+// The lanes of an accumulator, added in a fixed order.
+inline double add_lanes(const double (&lane)[W]) {
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+}  // namespace aquagraph::fluid
