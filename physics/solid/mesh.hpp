@@ -45,6 +45,10 @@ Mesh box_mesh(std::array<double, 2> min, std::array<double, 2> max, int columns,
 // is a finite point, and every edge of a surface is a boundary edge of exactly one element, solid on the left.
 void check(const Mesh& mesh);
 
+// What is wrong with one element's nodes or shape, as the end of a sentence that begins with its name; empty if
+// nothing.
+std::string element_fault(const Mesh& mesh, std::size_t element);
+
 // The edges of elements that belong to one element only: the whole boundary, solid on the left, by element and side.
 std::vector<SurfaceEdge> boundary_edges(const Mesh& mesh);
 

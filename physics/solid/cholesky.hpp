@@ -1,0 +1,33 @@
+// Sparse Cholesky factorisation L Lᵀ of a symmetric positive definite matrix with a fixed pattern, by CHOLMOD (Chen,
+// Davis, Hager & Rajamanickam, ACM Trans. Math. Softw. 35, 2008). The order of elimination and the pattern of L are
+// found once; solving reuses its workspace. Always simplicial: it calls no BLAS, hence no threads of BLAS, and its bits
+// do not depend on which BLAS is installed; on plane meshes it is also the faster one.
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace aquagraph::solid {
+
+class Cholesky {
+  public:
+    // Lower triangle by columns (CSC), rows ascending. Throws std::runtime_error if CHOLMOD cannot analyse it.
+    Cholesky(const std::vector<int>& column_starts, const std::vector<int>& rows);
+    ~Cholesky();
+
+    std::span<double> values();  // of the pattern, to be filled before factorise()
+
+    // False if the matrix is not positive definite, or singular to rounding. Throws std::bad_alloc.
+    bool factorise();
+
+    // Solves A x = b with the last factorisation. x may be b.
+    void solve(std::span<const double> b, std::span<double> x);
+
+    std::size_t factor_nonzeros() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace aquagraph::solid
