@@ -35,6 +35,7 @@ class HistoryWriter {
     const std::filesystem::path& file() const { return file_; }
 
   private:
+    HistoryWriter() = default;
     struct Close {
         void operator()(std::FILE* stream) const { std::fclose(stream); }
     };

@@ -116,7 +116,7 @@ struct Scene {
     CouplingScene coupling;
     OutputScene output;
     std::vector<Compare> comparisons;
-    std::map<std::string, SourcePosition> positions;  // dotted key ("solid.wet[1]") -> where it stands in the file
+    std::map<std::string, SourcePosition> positions;  // dotted key ("fluid.box[0].min", counted from 0) -> place
 };
 
 }  // namespace aquagraph::io

@@ -42,7 +42,20 @@ struct SceneSection {
 std::span<const SceneSection> scene_sections();
 std::span<const SceneKey> scene_keys();
 
-// The heading and the table of a section as they stand in benchmarks/SCENES.md.
+// nullptr where there is none.
+const SceneSection* find_section(std::string_view name);
+const SceneKey* find_key(std::string_view section, std::string_view name);
+
+// "a number > 0 in m", "[x, y] in m", "one of muscl, none": what a key takes.
+std::string expectation(const SceneKey& key);
+
+// "[fluid]", "[[fluid.box]]"; the top of the file has no heading of its own.
+std::string section_heading(const SceneSection& section);
+
+// Names that history.csv and the results use themselves: not for walls, bodies and tracks.
+std::span<const std::string_view> reserved_names();
+
+// Heading, meaning and table of a section as they stand in benchmarks/SCENES.md.
 std::string section_markdown(const SceneSection& section);
 
 }  // namespace aquagraph::io

@@ -1,0 +1,101 @@
+#include "io/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "io/atomic_file.hpp"
+
+namespace aquagraph::io {
+namespace {
+
+bool parts(char c) {
+    return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r';
+}
+
+// The next number of the line; false where something else stands there.
+bool number(std::string_view& line, double& value) {
+    while (!line.empty() && parts(line.front())) line.remove_prefix(1);
+    if (line.starts_with('+')) line.remove_prefix(1);
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+    if (error != std::errc{} || !std::isfinite(value)) return false;
+    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+    return line.empty() || parts(line.front());
+}
+
+// Between the two samples around t; t lies within the series.
+double interpolated(std::span<const double> time, std::span<const double> value, double t) {
+    const auto after = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());
+    if (after == 0) return value.front();
+    const double width = time[after] - time[after - 1];
+    const double weight = width > 0 ? (t - time[after - 1]) / width : 1;
+    return value[after - 1] + weight * (value[after] - value[after - 1]);
+}
+
+}  // namespace
+
+Curve read_reference(const Compare& compare) {
+    const std::string text = read_file(compare.file);
+    std::vector<std::pair<double, double>> points;
+    for (std::string_view rest = text; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        double time = 0, value = 0;
+        if (number(line, time) && number(line, value))
+            points.emplace_back(compare.time_scale * time, compare.value_scale * value + compare.value_offset);
+    }
+    if (points.empty())
+        throw std::runtime_error(fmt::format("{} holds no line with two numbers", compare.file.string()));
+    std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    Curve curve;
+    for (const auto& [time, value] : points) {
+        curve.time.push_back(time);
+        curve.value.push_back(value);
+    }
+    return curve;
+}
+
+Comparison compare_with(const Compare& compare, const History& history) {
+    Comparison result;
+    result.column = compare.column;
+    result.label = compare.label;
+    result.file = compare.file;
+    result.error = compare.error;
+    result.window = compare.window;
+    result.reference = read_reference(compare);
+    const std::span<const double> computed = history.column(compare.column), time = history.time();
+    result.unit = history.columns[*history.find(compare.column)].unit;
+
+    double squares = 0;
+    for (std::size_t i = 0; i < result.reference.time.size(); ++i) {
+        const double t = result.reference.time[i], expected = result.reference.value[i];
+        if (t < compare.window[0] || t > compare.window[1]) continue;
+        ++result.points_in_window;
+        result.peak = std::max(result.peak, std::abs(expected));
+        if (time.empty() || t < time.front() || t > time.back()) continue;
+        const double difference = interpolated(time, computed, t) - expected;
+        ++result.points;
+        squares += difference * difference;
+        // Written so that a NaN in the history shows.
+        if (!(std::abs(difference) <= result.largest)) {
+            result.largest = std::abs(difference);
+            result.largest_time = t;
+        }
+    }
+    if (result.points == 0) {
+        result.rms = result.normalised = result.largest = result.largest_time =
+            std::numeric_limits<double>::quiet_NaN();
+        return result;
+    }
+    result.rms = std::sqrt(squares / static_cast<double>(result.points));
+    result.normalised = result.peak > 0 ? result.rms / result.peak : 0;
+    return result;
+}
+
+}  // namespace aquagraph::io

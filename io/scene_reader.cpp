@@ -1,0 +1,186 @@
+#include "io/scene_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "io/atomic_file.hpp"
+#include "io/scene_validation.hpp"
+#include "io/toml_document.hpp"
+
+namespace aquagraph::io {
+namespace {
+
+// Moves what the document says into the scene; what is not given keeps the default that scene.hpp states.
+class Filler {
+  public:
+    Filler(const CheckedDocument& document, Complaints& complaints, Scene& scene)
+        : document_(document), complaints_(complaints), scene_(scene) {}
+
+    void everything() {
+        document_.take("title", scene_.title);
+        document_.take("gravity", scene_.gravity);
+        document_.take("time.end", scene_.end_time);
+        document_.take("domain.min", scene_.domain.min);
+        document_.take("domain.max", scene_.domain.max);
+        choose("domain.edge", scene_.edge, {{"closed", DomainEdge::closed}, {"open", DomainEdge::open}});
+        if (document_.count("fluid")) fluid(scene_.fluid.emplace());
+        walls();
+        if (document_.count("solid")) solid(scene_.solid.emplace());
+        choose("coupling.algorithm", scene_.coupling.algorithm,
+               {{"cps", CouplingAlgorithm::cps}, {"css", CouplingAlgorithm::css}});
+        document_.take("coupling.ratio", scene_.coupling.ratio);
+        document_.take("coupling.step_fraction", scene_.coupling.step_fraction);
+        scene_.output.frame_interval = scene_.end_time / 100;
+        document_.take("output.frame_interval", scene_.output.frame_interval);
+        document_.take("output.history_interval", scene_.output.history_interval);
+        comparisons();
+    }
+
+  private:
+    template <class E>
+    void choose(const std::string& key, E& target, std::initializer_list<std::pair<std::string_view, E>> meanings) {
+        std::string word;
+        if (!document_.take(key, word)) return;
+        for (const auto& [name, value] : meanings)
+            if (name == word) target = value;
+    }
+
+    std::filesystem::path beside_the_scene(const std::string& path) const {
+        return (scene_.file.parent_path() / path).lexically_normal();
+    }
+
+    void fluid(FluidScene& fluid) {
+        document_.take("fluid.spacing", fluid.spacing);
+        document_.take("fluid.density", fluid.density);
+        document_.take("fluid.sound_speed", fluid.sound_speed);
+        document_.take("fluid.polytropic_exponent", fluid.polytropic_exponent);
+        document_.take("fluid.support_ratio", fluid.support_ratio);
+        document_.take("fluid.cfl", fluid.cfl);
+        choose("fluid.reconstruction", fluid.reconstruction,
+               {{"muscl", Reconstruction::muscl}, {"none", Reconstruction::none}});
+        choose("fluid.initial_pressure", fluid.initial_pressure,
+               {{"hydrostatic", InitialPressure::hydrostatic}, {"zero", InitialPressure::zero}});
+        if (double level = 0; document_.take("fluid.surface_level", level)) fluid.surface_level = level;
+        for (int i = 0; i < document_.count("fluid.box"); ++i) {
+            Box& box = fluid.boxes.emplace_back();
+            document_.take(fmt::format("fluid.box[{}].min", i), box.min);
+            document_.take(fmt::format("fluid.box[{}].max", i), box.max);
+        }
+    }
+
+    void walls() {
+        for (int i = 0; i < document_.count("wall"); ++i) {
+            WallScene& wall = scene_.walls.emplace_back();
+            const std::string at = fmt::format("wall[{}].", i);
+            document_.take(at + "name", wall.name);
+            document_.take(at + "points", wall.points);
+            document_.take(at + "closed", wall.closed);
+            choose(at + "slip", wall.slip, {{"free", Slip::free}, {"none", Slip::none}});
+        }
+    }
+
+    void solid(SolidScene& solid) {
+        document_.take("solid.name", solid.name);
+        if (std::string mesh; document_.take("solid.mesh", mesh)) solid.mesh = beside_the_scene(mesh);
+        if (document_.count("solid.box")) {
+            solid.box.emplace();
+            document_.take("solid.box.min", solid.box->min);
+            document_.take("solid.box.max", solid.box->max);
+            document_.take("solid.box.elements", solid.elements);
+        }
+        choose("solid.plane", solid.plane, {{"strain", PlaneCondition::strain}, {"stress", PlaneCondition::stress}});
+        document_.take("solid.static_start", solid.static_start);
+        document_.take("solid.wet", solid.wet);
+        choose("solid.material.law", solid.law,
+               {{"saint_venant_kirchhoff", MaterialLaw::saint_venant_kirchhoff},
+                {"neo_hookean", MaterialLaw::neo_hookean}});
+        document_.take("solid.material.density", solid.density);
+        document_.take("solid.material.youngs_modulus", solid.youngs_modulus);
+        document_.take("solid.material.poissons_ratio", solid.poissons_ratio);
+        choose("solid.scheme.name", solid.scheme, {{"hht", SolidScheme::hht}, {"newmark", SolidScheme::newmark}});
+        document_.take("solid.scheme.alpha", solid.alpha);
+        for (int i = 0; i < document_.count("solid.clamp"); ++i)
+            clamp(solid.clamps.emplace_back(), fmt::format("solid.clamp[{}].", i));
+        for (int i = 0; i < document_.count("solid.track"); ++i) {
+            Track& track = solid.tracks.emplace_back();
+            document_.take(fmt::format("solid.track[{}].name", i), track.name);
+            document_.take(fmt::format("solid.track[{}].point", i), track.point);
+        }
+    }
+
+    void clamp(Clamp& clamp, const std::string& at) {
+        document_.take(at + "set", clamp.set);
+        std::vector<std::string> fixed{"x", "y"};
+        document_.take(at + "fixed", fixed);
+        for (const std::string& axis : fixed) {
+            if (axis == "x") clamp.fixed[0] = true;
+            if (axis == "y") clamp.fixed[1] = true;
+        }
+        if (fixed.empty() ||
+            std::any_of(fixed.begin(), fixed.end(), [](const std::string& a) { return a != "x" && a != "y"; }))
+            complaints_.add(at + "fixed", "`fixed` must name \"x\", \"y\" or both",
+                            "fixed = [\"x\", \"y\"] holds the nodes where they are");
+    }
+
+    void comparisons() {
+        for (int i = 0; i < document_.count("compare"); ++i) {
+            Compare& compare = scene_.comparisons.emplace_back();
+            const std::string at = fmt::format("compare[{}].", i);
+            document_.take(at + "column", compare.column);
+            if (std::string file; document_.take(at + "file", file)) compare.file = beside_the_scene(file);
+            document_.take(at + "label", compare.label);
+            compare.window = {0, scene_.end_time};
+            document_.take(at + "window", compare.window);
+            document_.take(at + "time_scale", compare.time_scale);
+            document_.take(at + "value_scale", compare.value_scale);
+            document_.take(at + "value_offset", compare.value_offset);
+            document_.take(at + "error", compare.error);
+        }
+    }
+
+    const CheckedDocument& document_;
+    Complaints& complaints_;
+    Scene& scene_;
+};
+
+std::string result_name(const std::filesystem::path& scene_file) {
+    const std::string folder = scene_file.parent_path().filename().string(), stem = scene_file.stem().string();
+    if (folder.empty()) return stem;
+    return stem == "scene" ? folder : folder + "_" + stem;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) {
+    Scene scene;
+    try {
+        if (std::filesystem::is_directory(file))
+            throw std::system_error(std::make_error_code(std::errc::is_a_directory));
+        scene.file = std::filesystem::absolute(file).lexically_normal();
+        scene.text = read_file(file);
+    } catch (const std::system_error& error) {
+        throw SceneError(file, {},
+                         {{"",
+                           {},
+                           "the scene cannot be read: " + error.code().message(),
+                           "give the path of a scene file, such as benchmarks/gate_2d/scene.toml"}});
+    }
+    scene.name = result_name(scene.file);
+    scene.title = scene.name;
+
+    Complaints complaints;
+    const CheckedDocument document = check_document(scene.text, complaints);
+    // A file that is no TOML, or of another version, says nothing about what else may be wrong in it.
+    if (!complaints.positions.empty() && !complaints.touch("schema_version")) {
+        Filler(document, complaints, scene).everything();
+        validate(scene, complaints);
+    }
+    if (!complaints.empty()) throw SceneError(file, scene.text, complaints.in_order_of_the_file());
+    scene.positions = std::move(complaints.positions);
+    return scene;
+}
+
+}  // namespace aquagraph::io

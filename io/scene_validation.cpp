@@ -1,0 +1,276 @@
+#include "io/scene_validation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <set>
+
+#include "io/comparison.hpp"
+#include "io/scene_keys.hpp"
+#include "io/suggestion.hpp"
+
+namespace aquagraph::io {
+namespace {
+
+// Corners that meet to within this part of a spacing or length touch; they do not overlap.
+constexpr double touching = 1e-6;
+
+std::string text(const Box& box) {
+    return fmt::format("[{}, {}] – [{}, {}]", box.min[0], box.min[1], box.max[0], box.max[1]);
+}
+
+std::string element(std::string_view list, std::size_t i, std::string_view key = {}) {
+    return fmt::format("{}[{}]{}{}", list, i, key.empty() ? "" : ".", key);
+}
+
+std::optional<Box> overlap(const Box& a, const Box& b, double tolerance) {
+    Box common;
+    for (std::size_t d = 0; d < 2; ++d) {
+        common.min[d] = std::max(a.min[d], b.min[d]);
+        common.max[d] = std::min(a.max[d], b.max[d]);
+        if (common.max[d] - common.min[d] <= tolerance) return std::nullopt;
+    }
+    return common;
+}
+
+class Validation {
+  public:
+    Validation(const Scene& scene, Complaints& complaints) : scene_(scene), complaints_(complaints) {}
+
+    void parts() {
+        const bool fluid = scene_.fluid.has_value(), solid = scene_.solid.has_value();
+        if (!fluid && !solid && !complaints_.touch("fluid") && !complaints_.touch("solid"))
+            complaints_.add_at({1, 1}, "fluid", "the scene has neither [fluid] nor [solid]",
+                               "give at least one of them");
+        if (complaints_.positions.contains("coupling") && fluid != solid)
+            complaints_.add(
+                "coupling",
+                fmt::format("[coupling] needs a fluid and a solid, but there is no [{}]", fluid ? "solid" : "fluid"),
+                fmt::format("add [{}] or take [coupling] out", fluid ? "solid" : "fluid"));
+        if (!fluid) return;
+        if (scene_.fluid->boxes.empty() && !complaints_.touch("fluid.box"))
+            complaints_.add("fluid", "[fluid] has no water in it", "add at least one [[fluid.box]] with min and max");
+    }
+
+    // Whether max lies beyond min; without it no other check of the box makes sense.
+    bool ordered(const Box& box, const std::string& key) {
+        if (complaints_.touch(key + ".min") || complaints_.touch(key + ".max")) return false;
+        for (std::size_t d = 0; d < 2; ++d)
+            if (!(box.max[d] > box.min[d])) {
+                complaints_.add(key + ".max",
+                                fmt::format("`max` must lie beyond `min`, but in {} it is {} and `min` is {}",
+                                            d == 0 ? "x" : "y", box.max[d], box.min[d]),
+                                "min is the lower left corner, max the upper right one");
+                return false;
+            }
+        return true;
+    }
+
+    void fluid_boxes() {
+        if (!scene_.fluid) return;
+        const FluidScene& fluid = *scene_.fluid;
+        const bool spacing_known = !complaints_.touch("fluid.spacing");
+        const double tolerance = spacing_known ? touching * fluid.spacing : 0;
+        const bool domain_known = !complaints_.touch("domain") && complaints_.positions.contains("domain");
+        std::vector<bool> sound(fluid.boxes.size());
+        for (std::size_t i = 0; i < fluid.boxes.size(); ++i) {
+            const Box& box = fluid.boxes[i];
+            sound[i] = ordered(box, element("fluid.box", i));
+            if (!sound[i]) continue;
+            if (spacing_known) thin(box, i, fluid.spacing);
+            if (domain_known) inside_domain(box, i, tolerance);
+            for (std::size_t j = 0; j < i; ++j)
+                if (const auto common = overlap(box, fluid.boxes[j], tolerance); sound[j] && common)
+                    complaints_.add(
+                        element("fluid.box", i),
+                        fmt::format("water box {} overlaps water box {} in {}", i + 1, j + 1, text(*common)),
+                        "boxes may share an edge, not an area: particles would stand in each other");
+            if (scene_.solid && scene_.solid->box && !complaints_.touch("solid.box"))
+                if (const auto common = overlap(box, *scene_.solid->box, tolerance))
+                    complaints_.add(element("fluid.box", i),
+                                    fmt::format("water box {} overlaps the solid box in {}", i + 1, text(*common)),
+                                    fmt::format("let it end at the solid, which fills {}", text(*scene_.solid->box)));
+        }
+    }
+
+    void walls() {
+        for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
+            const std::string key = element("wall", i, "points");
+            const std::vector<Point>& points = scene_.walls[i].points;
+            if (complaints_.touch(key)) continue;
+            if (points.size() < 2) {
+                complaints_.add(key, fmt::format("a wall needs at least 2 points, but this one has {}", points.size()),
+                                "points = [[x0, y0], [x1, y1], …] with the water on the left of the way");
+                continue;
+            }
+            for (std::size_t k = 1; k < points.size(); ++k)
+                if (points[k] == points[k - 1])
+                    complaints_.add(element(key, k),
+                                    fmt::format("segment {} of the wall has no length: both its ends are [{}, {}]", k,
+                                                points[k][0], points[k][1]),
+                                    "take one of the two points out");
+            if (scene_.walls[i].closed && points.front() == points.back())
+                complaints_.add(element(key, points.size() - 1),
+                                "the closing segment of the wall has no length: the first point is repeated",
+                                "`closed = true` already joins the last point to the first");
+        }
+    }
+
+    void names() {
+        std::set<std::string> bodies, tracks;
+        for (std::size_t i = 0; i < scene_.walls.size(); ++i)
+            name(element("wall", i, "name"), scene_.walls[i].name, bodies);
+        if (!scene_.solid) return;
+        // "solid" is reserved for the solid, which is what it is called by default.
+        if (scene_.solid->name != "solid") name("solid.name", scene_.solid->name, bodies);
+        for (std::size_t i = 0; i < scene_.solid->tracks.size(); ++i)
+            name(element("solid.track", i, "name"), scene_.solid->tracks[i].name, tracks);
+    }
+
+    void solid() {
+        if (!scene_.solid) return;
+        const SolidScene& solid = *scene_.solid;
+        body(solid);
+        if (!complaints_.positions.contains("solid.material"))
+            complaints_.add("solid.material", "[solid.material] is missing",
+                            "give density, youngs_modulus and poissons_ratio of the body");
+        for (std::size_t i = 0; i < solid.wet.size(); ++i) known_set(element("solid.wet", i), solid.wet[i], "surface");
+        repeated(solid.wet, "solid.wet", "");
+        std::vector<std::string> clamped;
+        for (std::size_t i = 0; i < solid.clamps.size(); ++i) {
+            clamped.push_back(solid.clamps[i].set);
+            known_set(element("solid.clamp", i, "set"), solid.clamps[i].set, "node set");
+        }
+        repeated(clamped, "solid.clamp", "set");
+        if (solid.wet.empty() && !complaints_.touch("solid.wet")) {
+            if (complaints_.positions.contains("solid.wet"))
+                complaints_.add("solid.wet", "`wet` is empty",
+                                "name the surfaces that touch the water: wet = [\"left\", \"bottom\"]");
+            else if (scene_.fluid)
+                complaints_.add("solid.wet", "no surface of the solid touches the water: `wet` is missing in [solid]",
+                                "name the surfaces that touch the water: wet = [\"left\", \"bottom\"]");
+        }
+        if (solid.static_start && solid.clamps.empty() && !complaints_.touch("solid.clamp"))
+            complaints_.add("solid.static_start", "a body without any [[solid.clamp]] has no equilibrium to start from",
+                            "clamp it or take `static_start` out");
+    }
+
+    void comparisons() {
+        for (std::size_t i = 0; i < scene_.comparisons.size(); ++i) {
+            const Compare& compare = scene_.comparisons[i];
+            if (!complaints_.touch(element("compare", i, "window")) && !complaints_.touch("time") &&
+                !(compare.window[0] < compare.window[1]))
+                complaints_.add(
+                    element("compare", i, "window"),
+                    fmt::format("`window` runs backwards, from {} s to {} s", compare.window[0], compare.window[1]),
+                    "window = [from, to] with from < to");
+            const std::string key = element("compare", i, "file");
+            if (complaints_.touch(key)) continue;
+            const std::string help = "two columns of numbers, time and value; the path is seen from the scene's folder";
+            if (!std::filesystem::exists(compare.file)) {
+                complaints_.add(
+                    key, fmt::format("the file {} does not exist", compare.file.lexically_normal().string()), help);
+                continue;
+            }
+            try {
+                read_reference(compare);
+            } catch (const std::exception& error) {
+                complaints_.add(key, fmt::format("the file cannot be used: {}", error.what()), help);
+            }
+        }
+    }
+
+  private:
+    void thin(const Box& box, std::size_t i, double spacing) {
+        for (std::size_t d = 0; d < 2; ++d)
+            if (const double width = box.max[d] - box.min[d]; width < (1 - touching) * spacing)
+                complaints_.add(element("fluid.box", i, "max"),
+                                fmt::format("the box is {} m {}, less than one spacing of {} m", width,
+                                            d == 0 ? "wide" : "high", spacing),
+                                "a particle needs a cell of Δx by Δx: make the box larger or the spacing smaller");
+    }
+
+    void inside_domain(const Box& box, std::size_t i, double tolerance) {
+        const Box& domain = scene_.domain;
+        for (std::size_t d = 0; d < 2; ++d)
+            if (box.min[d] < domain.min[d] - tolerance || box.max[d] > domain.max[d] + tolerance) {
+                complaints_.add(element("fluid.box", i),
+                                fmt::format("water box {} reaches out of the domain {}", i + 1, text(domain)),
+                                "make the domain larger: [domain] min and max must enclose all water");
+                return;
+            }
+    }
+
+    void body(const SolidScene& solid) {
+        const bool box = complaints_.positions.contains("solid.box"),
+                   mesh = complaints_.positions.contains("solid.mesh");
+        if (box && mesh)
+            complaints_.add("solid.mesh", "[solid] has both `mesh` and [solid.box]",
+                            "keep one of them: the body is either read or meshed here");
+        if (!box && !mesh)
+            complaints_.add("solid", "[solid] has no shape: neither `mesh` nor [solid.box]",
+                            "give mesh = \"file.msh\" or a [solid.box] with min, max and elements");
+        if (box && !complaints_.touch("solid.box")) ordered(*solid.box, "solid.box");
+        if (mesh && !complaints_.touch("solid.mesh") && !std::filesystem::exists(solid.mesh))
+            complaints_.add("solid.mesh",
+                            fmt::format("the mesh {} does not exist", solid.mesh.lexically_normal().string()),
+                            "a Gmsh 4.1 file; the path is seen from the scene's folder");
+    }
+
+    // The sets of a mesh are only known once it is read.
+    void known_set(const std::string& key, const std::string& set, std::string_view what) {
+        static const std::vector<std::string> sets{"left", "right", "bottom", "top"};
+        if (!scene_.solid->box || complaints_.touch(key) || std::find(sets.begin(), sets.end(), set) != sets.end())
+            return;
+        const auto guess = nearest(set, sets);
+        complaints_.add(key, fmt::format("the box has no {} \"{}\"", what, set),
+                        guess ? fmt::format("did you mean \"{}\"?", *guess) : "a box has left, right, bottom and top");
+    }
+
+    void repeated(const std::vector<std::string>& sets, std::string_view list, std::string_view key) {
+        std::set<std::string> seen;
+        for (std::size_t i = 0; i < sets.size(); ++i)
+            if (!sets[i].empty() && !seen.insert(sets[i]).second)
+                complaints_.add(element(list, i, key), fmt::format("\"{}\" is named twice", sets[i]),
+                                "name each set once");
+    }
+
+    void name(const std::string& key, const std::string& given, std::set<std::string>& taken) {
+        if (complaints_.touch(key) || given.empty()) return;
+        const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+        const bool plain = letter(given.front()) && std::all_of(given.begin(), given.end(), [&](char c) {
+                               return letter(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '_';
+                           });
+        const auto reserved = reserved_names();
+        if (!plain)
+            complaints_.add(key, fmt::format("\"{}\" cannot be a name", given),
+                            "letters, digits and _, beginning with a letter");
+        else if (std::find(reserved.begin(), reserved.end(), given) != reserved.end())
+            complaints_.add(key, fmt::format("the name \"{}\" is reserved for the results", given),
+                            fmt::format("choose another; reserved are {}", fmt::join(reserved, ", ")));
+        else if (!taken.insert(given).second)
+            complaints_.add(key, fmt::format("the name \"{}\" is already taken", given),
+                            "every name stands for one thing: choose another");
+    }
+
+    const Scene& scene_;
+    Complaints& complaints_;
+};
+
+}  // namespace
+
+void validate(const Scene& scene, Complaints& complaints) {
+    Validation validation(scene, complaints);
+    validation.parts();
+    if (complaints.positions.contains("domain") && !complaints.touch("domain"))
+        validation.ordered(scene.domain, "domain");
+    validation.solid();
+    validation.fluid_boxes();
+    validation.walls();
+    validation.names();
+    validation.comparisons();
+}
+
+}  // namespace aquagraph::io
