@@ -9,7 +9,7 @@
 
 namespace aquagraph::tasks {
 
-// Why the later task waits. A pair of tasks may have several reasons, one for each resource and kind.
+// Why the later task waits. A pair of tasks may have several reasons, one for each resource.
 enum class HazardKind { read_after_write, write_after_read, write_after_write };
 
 struct Hazard {
@@ -20,11 +20,11 @@ struct Hazard {
 struct Edge {
     std::size_t from{};  // positions in the listing, from < to
     std::size_t to{};
-    std::vector<Hazard> hazards{};  // never empty, ordered by kind; a write after write is not listed next to
-                                    // a read after write of the same resource
+    std::vector<Hazard> hazards{};  // never empty, as hazards_between returns them
 };
 
 // All reasons why `later` must not start before `earlier` has finished; empty if the two may run at the same time.
+// Ordered by kind, and a resource appears once, with the first kind that applies.
 std::vector<Hazard> hazards_between(const Task& earlier, const Task& later);
 
 // The edges that order every pair of tasks with a hazard as in the listing, and none that follows from the others

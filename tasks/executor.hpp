@@ -6,8 +6,6 @@
 
 namespace aquagraph::tasks {
 
-class TaskGraph;
-
 // Guarantees that never more than threads() threads, the calling one included, work for it. The limit holds for all
 // of the process' oneTBB use while the executor lives, so make one in main() and hand it around: where several live
 // at the same time, the smallest limit counts. Must outlive the graphs built on it.
@@ -25,7 +23,6 @@ class Executor {
     void execute(FunctionRef<void()> body);
 
   private:
-    friend class TaskGraph;
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };
