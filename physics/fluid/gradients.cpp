@@ -126,7 +126,7 @@ struct GradientPass {
 
 template <int D>
 void compute_gradients(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
-                       std::size_t block) {
+                       LaneRange lanes) {
     GradientPass<D> pass;
     pass.p = s.p.data();
     pass.volume = s.volume.data();
@@ -139,10 +139,10 @@ void compute_gradients(Particles<D>& s, const NeighbourLists<D>& lists, const We
     }
     pass.inverse_radius = 1 / kernel.radius();
     pass.slope_factor = kernel.slope_factor();
-    pair_loop<D>(s, lists, block, pass);
+    pair_loop<D>(lists, lanes, pass);
 }
 
-template void compute_gradients(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&, std::size_t);
-template void compute_gradients(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&, std::size_t);
+template void compute_gradients(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&, LaneRange);
+template void compute_gradients(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&, LaneRange);
 
 }  // namespace aquagraph::fluid

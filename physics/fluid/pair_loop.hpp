@@ -8,25 +8,21 @@
 // The lane loop is vectorised by `omp simd`. GCC gives up as soon as pair() is not inlined or writes to memory that it
 // cannot prove private, so `aquagraph run` prints pairs/s of every pass: a fall to a quarter is a bug.
 #pragma once
-#include <algorithm>
-#include <span>
 
 #include "physics/fluid/neighbour_lists.hpp"
 
 namespace aquagraph::fluid {
 
 template <int D, class Pass>
-[[gnu::flatten]] void pair_loop(const Particles<D>& particles, const NeighbourLists<D>& lists, std::size_t block,
-                                const Pass& pass) {
+[[gnu::flatten]] void pair_loop(const NeighbourLists<D>& lists, LaneRange lanes, const Pass& pass) {
+    const std::size_t block = lanes.begin / (clusters_per_block * W), block_begin = block * clusters_per_block * W;
     const NeighbourBlock& list = lists.blocks[block];
-    const std::size_t begin = block * clusters_per_block * W,
-                      end = std::min(particles.count, begin + clusters_per_block * W);
     const std::uint32_t* const open = list.open.data();
     const std::uint32_t* const masked = list.masked.data();
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
         const auto own = pass.load(i);
         typename Pass::Sum sum{};
-        const auto from = list.particle[i - begin], to = list.particle[i - begin + 1];
+        const auto from = list.particle[i - block_begin], to = list.particle[i - block_begin + 1];
         for (std::uint32_t k = from.open_end; k < to.open_end; ++k) {
             const std::size_t j = std::size_t(open[k]) * W;
 #pragma omp simd

@@ -7,6 +7,7 @@
 //     [ fluid 0 … count-1 | padding ][ ghosts | padding ]
 //       clusters() of W                ghost_clusters of W
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +57,22 @@ struct Particles {
     // `count` lanes are kept, those of ghosts are not. Allocates only when a part outgrows what it ever had.
     void resize(std::size_t fluid, std::size_t ghosts);
 };
+
+// Lanes of fluid particles, [begin, end), that lie in one block.
+struct LaneRange {
+    std::size_t begin, end;
+};
+
+template <int D>
+LaneRange lanes_of_block(const Particles<D>& particles, std::size_t block) {
+    const std::size_t begin = block * clusters_per_block * W;
+    return {begin, std::min(particles.count, begin + clusters_per_block * W)};
+}
+
+template <int D>
+LaneRange lanes_of_cluster(const Particles<D>& particles, std::size_t cluster) {
+    return {cluster * W, std::min(particles.count, (cluster + 1) * W)};
+}
 
 extern template struct Particles<2>;
 extern template struct Particles<3>;

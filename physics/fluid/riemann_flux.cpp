@@ -39,7 +39,7 @@ struct FluxPass {
 
 template <int D, bool muscl>
 void run(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
-         const FluxParameters& parameters, double reference_density, std::size_t block) {
+         const FluxParameters& parameters, double reference_density, LaneRange lanes) {
     FluxPass<D, muscl> pass{.fields = FluxFields<D>(s),
                             .mass = s.mass.data(),
                             .deviation = s.deviation.data(),
@@ -53,23 +53,23 @@ void run(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& k
         pass.acceleration[d] = s.acceleration[d].data();
         pass.gravity[d] = parameters.gravity[d];
     }
-    pair_loop<D>(s, lists, block, pass);
+    pair_loop<D>(lists, lanes, pass);
 }
 
 }  // namespace
 
 template <int D>
 void compute_fluxes(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
-                    const FluxParameters& parameters, double reference_density, std::size_t block) {
+                    const FluxParameters& parameters, double reference_density, LaneRange lanes) {
     if (parameters.muscl)
-        run<D, true>(s, lists, kernel, parameters, reference_density, block);
+        run<D, true>(s, lists, kernel, parameters, reference_density, lanes);
     else
-        run<D, false>(s, lists, kernel, parameters, reference_density, block);
+        run<D, false>(s, lists, kernel, parameters, reference_density, lanes);
 }
 
 template void compute_fluxes(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&, const FluxParameters&,
-                             double, std::size_t);
+                             double, LaneRange);
 template void compute_fluxes(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&, const FluxParameters&,
-                             double, std::size_t);
+                             double, LaneRange);
 
 }  // namespace aquagraph::fluid

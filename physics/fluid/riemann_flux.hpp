@@ -109,14 +109,14 @@ struct FluxParameters {
     double gravity[3] = {0, 0, 0};  // [m/s²]
 };
 
-// Writes acceleration and deviation_rate of the fluid particles of one block.
+// Writes acceleration and deviation_rate of these fluid particles (of one block).
 template <int D>
 void compute_fluxes(Particles<D>& particles, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
-                    const FluxParameters& parameters, double reference_density, std::size_t block);
+                    const FluxParameters& parameters, double reference_density, LaneRange lanes);
 
 extern template void compute_fluxes(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&,
-                                    const FluxParameters&, double, std::size_t);
+                                    const FluxParameters&, double, LaneRange);
 extern template void compute_fluxes(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&,
-                                    const FluxParameters&, double, std::size_t);
+                                    const FluxParameters&, double, LaneRange);
 
 }  // namespace aquagraph::fluid

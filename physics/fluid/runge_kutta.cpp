@@ -1,24 +1,13 @@
 #include "physics/fluid/runge_kutta.hpp"
 
-#include <algorithm>
-
 namespace aquagraph::fluid {
 
 namespace {
-struct Range {
-    std::size_t begin, end;
-};
-template <int D>
-Range lanes_of(const Particles<D>& s, std::size_t block) {
-    const std::size_t begin = block * clusters_per_block * W;
-    return {begin, std::min(s.count, begin + clusters_per_block * W)};
-}
-
 // One component of u: value, its derivative, the two auxiliaries.
-void advance(double* u, const double* k, double* u_n, double* sum, int stage, double dt, Range range) {
+void advance(double* u, const double* k, double* u_n, double* sum, int stage, double dt, LaneRange lanes) {
     switch (stage) {
         case 0:
-            for (std::size_t i = range.begin; i < range.end; ++i) {
+            for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
                 u_n[i] = u[i];
                 sum[i] = k[i];
                 u[i] = u_n[i] + 0.5 * dt * k[i];
@@ -27,14 +16,14 @@ void advance(double* u, const double* k, double* u_n, double* sum, int stage, do
         case 1:
         case 2: {
             const double next = stage == 1 ? 0.5 * dt : dt;
-            for (std::size_t i = range.begin; i < range.end; ++i) {
+            for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
                 sum[i] += 2 * k[i];
                 u[i] = u_n[i] + next * k[i];
             }
             break;
         }
         default:
-            for (std::size_t i = range.begin; i < range.end; ++i) u[i] = u_n[i] + dt / 6 * (sum[i] + k[i]);
+            for (std::size_t i = lanes.begin; i < lanes.end; ++i) u[i] = u_n[i] + dt / 6 * (sum[i] + k[i]);
     }
 }
 }  // namespace
@@ -52,9 +41,8 @@ void RungeKutta<D>::resize(const Particles<D>& particles) {
 }
 
 template <int D>
-void update_state(Particles<D>& s, const Tait& tait, std::size_t block) {
-    const Range range = lanes_of(s, block);
-    for (std::size_t i = range.begin; i < range.end; ++i) {
+void update_state(Particles<D>& s, const Tait& tait, LaneRange lanes) {
+    for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
         const double rho = tait.reference_density + s.deviation[i];
         s.p[i] = tait.pressure(s.deviation[i]);
         s.impedance[i] = rho * tait.sound_speed_at(s.deviation[i]);
@@ -63,23 +51,22 @@ void update_state(Particles<D>& s, const Tait& tait, std::size_t block) {
 }
 
 template <int D>
-void advance_stage(Particles<D>& s, RungeKutta<D>& rk, const Tait& tait, int stage, double dt, std::size_t block) {
-    const Range range = lanes_of(s, block);
+void advance_stage(Particles<D>& s, RungeKutta<D>& rk, const Tait& tait, int stage, double dt, LaneRange lanes) {
     // Positions first: their derivative is the velocity of this stage, which the next line overwrites.
     for (int d = 0; d < D; ++d) {
-        advance(s.x[d].data(), s.v[d].data(), rk.x_n[d].data(), rk.x_sum[d].data(), stage, dt, range);
-        advance(s.v[d].data(), s.acceleration[d].data(), rk.v_n[d].data(), rk.v_sum[d].data(), stage, dt, range);
+        advance(s.x[d].data(), s.v[d].data(), rk.x_n[d].data(), rk.x_sum[d].data(), stage, dt, lanes);
+        advance(s.v[d].data(), s.acceleration[d].data(), rk.v_n[d].data(), rk.v_sum[d].data(), stage, dt, lanes);
     }
     advance(s.deviation.data(), s.deviation_rate.data(), rk.deviation_n.data(), rk.deviation_sum.data(), stage, dt,
-            range);
-    update_state(s, tait, block);
+            lanes);
+    update_state(s, tait, lanes);
 }
 
 template struct RungeKutta<2>;
 template struct RungeKutta<3>;
-template void update_state(Particles<2>&, const Tait&, std::size_t);
-template void update_state(Particles<3>&, const Tait&, std::size_t);
-template void advance_stage(Particles<2>&, RungeKutta<2>&, const Tait&, int, double, std::size_t);
-template void advance_stage(Particles<3>&, RungeKutta<3>&, const Tait&, int, double, std::size_t);
+template void update_state(Particles<2>&, const Tait&, LaneRange);
+template void update_state(Particles<3>&, const Tait&, LaneRange);
+template void advance_stage(Particles<2>&, RungeKutta<2>&, const Tait&, int, double, LaneRange);
+template void advance_stage(Particles<3>&, RungeKutta<3>&, const Tait&, int, double, LaneRange);
 
 }  // namespace aquagraph::fluid

@@ -19,14 +19,14 @@ struct RungeKutta {
     void resize(const Particles<D>& particles);
 };
 
-// Takes the rates of stage `stage` (0 … 3) and moves the fluid particles of one block to the next stage's state.
+// Takes the rates of stage `stage` (0 … 3) and moves the fluid particles of these lanes to the next stage's state.
 template <int D>
 void advance_stage(Particles<D>& particles, RungeKutta<D>& rk, const Tait& tait, int stage, double dt,
-                   std::size_t block);
+                   LaneRange lanes);
 
-// Pressure, impedance, volume from deviation and mass for the particles of one block.
+// Pressure, impedance, volume from deviation and mass for the particles of these lanes.
 template <int D>
-void update_state(Particles<D>& particles, const Tait& tait, std::size_t block);
+void update_state(Particles<D>& particles, const Tait& tait, LaneRange lanes);
 
 extern template struct RungeKutta<2>;
 extern template struct RungeKutta<3>;

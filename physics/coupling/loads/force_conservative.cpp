@@ -1,0 +1,121 @@
+#include "physics/coupling/loads/force_conservative.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "physics/fluid/riemann_flux.hpp"
+
+namespace aquagraph::coupling {
+
+using fluid::W;
+
+void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const fluid::NeighbourLists<2>& lists,
+                                    const fluid::GhostWalls& walls) {
+    const std::size_t first_ghost_cluster = particles.clusters();
+    const double reach2 = lists.reach() * lists.reach();
+    const auto is_wet = [&](int panel) { return panel >= 0 && walls.panels.panels[std::size_t(panel)].wet; };
+
+    pairs_.clear();
+    const auto visit = [&](std::size_t i, std::uint32_t cluster, unsigned mask) {
+        for (std::size_t l = 0; l < W; ++l) {
+            const std::size_t lane = cluster * W + l, g = lane - particles.ghost_begin();
+            if (!((mask >> l) & 1u) || g >= particles.ghost_count) continue;
+            const double dx = particles.x[0][lane] - particles.x[0][i], dy = particles.x[1][lane] - particles.x[1][i];
+            if (dx * dx + dy * dy >= reach2) continue;
+            const fluid::Ghost& ghost = walls.ghosts[g];
+            if (ghost.corner < 0) {
+                if (is_wet(ghost.panel)) pairs_.push_back({std::uint32_t(g), std::uint32_t(i), ghost.panel});
+                continue;
+            }
+            // A corner's ghost loads the panel through which it is seen: the corner's own one of that patch.
+            const int entry = walls.visibility.entry_panel(i, g);
+            if (entry < 0) continue;
+            for (const int panel : walls.corners[std::size_t(ghost.corner)].panel) {
+                if (is_wet(panel) && walls.patch[std::size_t(panel)] == walls.patch[std::size_t(entry)]) {
+                    pairs_.push_back({std::uint32_t(g), std::uint32_t(i), panel});
+                    break;
+                }
+            }
+        }
+    };
+    for (std::size_t block = 0; block < lists.blocks.size(); ++block) {
+        const auto& list = lists.blocks[block];
+        const fluid::LaneRange lanes = lanes_of_block(particles, block);
+        for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
+            const auto* cell = walls.grid.at(particles.x[0][i], particles.x[1][i]);
+            if (!cell || !cell->wet) continue;
+            const auto from = list.particle[i - lanes.begin], to = list.particle[i - lanes.begin + 1];
+            for (auto k = from.open_end; k < to.open_end; ++k)
+                if (list.open[k] >= first_ghost_cluster) visit(i, list.open[k], 0xff);
+            for (auto k = from.masked_end; k < to.masked_end; ++k)
+                if (list.masked[k] >= first_ghost_cluster) visit(i, list.masked[k], list.mask[k]);
+        }
+    }
+    std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+        return std::tie(a.ghost, a.panel, a.fluid) < std::tie(b.ghost, b.panel, b.fluid);
+    });
+
+    sources_.clear();
+    fluid_.clear();
+    needed_.assign(particles.clusters(), 0);
+    for (const Pair& pair : pairs_) {
+        if (sources_.empty() || sources_.back().ghost != pair.ghost || sources_.back().panel != pair.panel) {
+            sources_.push_back({pair.ghost, pair.panel, std::uint32_t(fluid_.size()), 0});
+            needed_[walls.ghosts[pair.ghost].parent / W] = 1;
+        }
+        fluid_.push_back(pair.fluid);
+        needed_[pair.fluid / W] = 1;
+        sources_.back().end = std::uint32_t(fluid_.size());
+    }
+    force_.assign(sources_.size(), Vec2::Zero());
+    clusters_.clear();
+    for (std::size_t c = 0; c < needed_.size(); ++c)
+        if (needed_[c]) clusters_.push_back(std::uint32_t(c));
+}
+
+namespace {
+template <bool muscl>
+Vec2 force_on_ghost(const fluid::FluxFields<2>& fields, const fluid::WendlandC2<2>& kernel, std::size_t lane,
+                    const std::uint32_t* neighbour, std::size_t n) {
+    const auto own = fields.load(lane);
+    const double inverse_radius = 1 / kernel.radius(), slope_factor = kernel.slope_factor();
+    double fx = 0, fy = 0;
+#pragma omp simd reduction(- : fx, fy)
+    for (std::size_t k = 0; k < n; ++k) {
+        double dx[2];
+        const auto flux = fluid::pair_flux<2, muscl>(own, fields, neighbour[k], 1.0, inverse_radius, slope_factor, dx);
+        fx -= flux.pressure * dx[0];
+        fy -= flux.pressure * dx[1];
+    }
+    return fields.volume[lane] * Vec2(fx, fy);
+}
+}  // namespace
+
+void ForceConservativeLoad::compute(const fluid::Particles<2>& particles, const fluid::WendlandC2<2>& kernel,
+                                    bool muscl, std::size_t block) {
+    const fluid::FluxFields<2> fields(particles);
+    const std::size_t end = std::min(sources_.size(), (block + 1) * sources_per_block);
+    for (std::size_t s = block * sources_per_block; s < end; ++s) {
+        const Source& source = sources_[s];
+        const std::size_t lane = particles.ghost_begin() + source.ghost, n = source.end - source.begin;
+        const std::uint32_t* neighbour = fluid_.data() + source.begin;
+        force_[s] = muscl ? force_on_ghost<true>(fields, kernel, lane, neighbour, n)
+                          : force_on_ghost<false>(fields, kernel, lane, neighbour, n);
+    }
+}
+
+void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const fluid::GhostWalls& walls,
+                                   std::vector<Vec2>& vertex_forces) const {
+    vertex_forces.assign(walls.panels.position.size(), Vec2::Zero());
+    for (std::size_t k = 0; k < sources_.size(); ++k) {
+        const Source& source = sources_[k];
+        const std::size_t parent = walls.ghosts[source.ghost].parent, p = std::size_t(source.panel);
+        const Vec2 x(particles.x[0][parent], particles.x[1][parent]);
+        const double s =
+            std::clamp((x - walls.panels.start(p)).dot(walls.panels.tangent[p]) / walls.panels.length[p], 0.0, 1.0);
+        vertex_forces[std::size_t(walls.panels.panels[p].first)] += (1 - s) * force_[k];
+        vertex_forces[std::size_t(walls.panels.panels[p].second)] += s * force_[k];
+    }
+}
+
+}  // namespace aquagraph::coupling

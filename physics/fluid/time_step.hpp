@@ -1,0 +1,39 @@
+// Largest stable step (thesis (2.61)): Δt = K min_i(R/c_i), and K' sqrt(R/|a|) with K' = 0.25 where accelerations are
+// what limits. K = 0.375 for RK4.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/fluid/particles.hpp"
+
+namespace aquagraph::fluid {
+
+struct StepLimits {
+    double sound = std::numeric_limits<double>::infinity();         // [s]
+    double acceleration = std::numeric_limits<double>::infinity();  // [s]
+    double step() const { return std::min(sound, acceleration); }
+    const char* name() const { return sound <= acceleration ? "sound speed" : "acceleration"; }
+};
+
+inline StepLimits combine(const StepLimits& a, const StepLimits& b) {
+    return {std::min(a.sound, b.sound), std::min(a.acceleration, b.acceleration)};
+}
+
+// Over these particles; the impedance ρc of each gives its sound speed.
+template <int D>
+StepLimits step_limits(const Particles<D>& s, double cfl, double radius, LaneRange lanes) {
+    double fastest = 0, strongest = 0;
+    for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
+        double a2 = 0;
+        for (std::size_t d = 0; d < D; ++d) a2 += s.acceleration[d][i] * s.acceleration[d][i];
+        strongest = std::max(strongest, a2);
+        fastest = std::max(fastest, s.impedance[i] * s.volume[i] / s.mass[i]);
+    }
+    StepLimits limits;
+    if (fastest > 0) limits.sound = cfl * radius / fastest;
+    if (strongest > 0) limits.acceleration = 0.25 * std::sqrt(radius / std::sqrt(strongest));
+    return limits;
+}
+
+}  // namespace aquagraph::fluid

@@ -1,0 +1,166 @@
+#include "physics/fluid/walls/visibility.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace aquagraph::fluid {
+
+void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, double reach) {
+    const std::size_t n = panels.panels.size();
+    Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
+    for (std::size_t k = 0; k < n; ++k) {
+        low = low.cwiseMin(panels.start(k)).cwiseMin(panels.end(k));
+        high = high.cwiseMax(panels.start(k)).cwiseMax(panels.end(k));
+    }
+    cells_.clear();
+    index_.clear();
+    nx_ = ny_ = 0;
+    if (n == 0) return;
+    origin_ = low - Vec2::Constant(1.001 * reach);
+    high += Vec2::Constant(1.001 * reach);
+    inverse_width_ = 1 / reach;
+    nx_ = int((high.x() - origin_.x()) * inverse_width_) + 1;
+    ny_ = int((high.y() - origin_.y()) * inverse_width_) + 1;
+    index_.assign(std::size_t(nx_) * std::size_t(ny_), -1);
+
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2 a = panels.start(k), b = panels.end(k);
+        const Vec2 from = a.cwiseMin(b) - Vec2::Constant(reach), to = a.cwiseMax(b) + Vec2::Constant(reach);
+        const int x0 = std::max(0, int((from.x() - origin_.x()) * inverse_width_)),
+                  x1 = std::min(nx_ - 1, int((to.x() - origin_.x()) * inverse_width_)),
+                  y0 = std::max(0, int((from.y() - origin_.y()) * inverse_width_)),
+                  y1 = std::min(ny_ - 1, int((to.y() - origin_.y()) * inverse_width_));
+        for (int iy = y0; iy <= y1; ++iy) {
+            for (int ix = x0; ix <= x1; ++ix) {
+                // A long slanted panel passes far from most cells of its bounding box.
+                const Vec2 centre = origin_ + Vec2(ix + 0.5, iy + 0.5) * reach;
+                const double s = std::clamp((centre - a).dot(panels.tangent[k]), 0.0, panels.length[k]);
+                if ((centre - a - s * panels.tangent[k]).norm() > reach * (1 + 0.7072)) continue;
+                int& cell = index_[std::size_t(iy) * std::size_t(nx_) + std::size_t(ix)];
+                if (cell < 0) {
+                    cell = int(cells_.size());
+                    cells_.emplace_back();
+                }
+                Cell& c = cells_[std::size_t(cell)];
+                c.panel.push_back(int(k));
+                c.x.push_back(a.x());
+                c.y.push_back(a.y());
+                c.tx.push_back(panels.tangent[k].x());
+                c.ty.push_back(panels.tangent[k].y());
+                c.length.push_back(panels.length[k]);
+                c.patch.push_back(patch[k]);
+                c.wet = c.wet || panels.panels[k].wet;
+            }
+        }
+    }
+    for (Cell& c : cells_) {
+        // Nothing is hidden where every panel has all the others in front of it or in its own plane.
+        c.convex_room = true;
+        for (std::size_t k = 0; k < c.panel.size() && c.convex_room; ++k) {
+            const auto panel = std::size_t(c.panel[k]);
+            for (const int other : c.panel)
+                for (const Vec2& x : {panels.start(std::size_t(other)), panels.end(std::size_t(other))})
+                    if ((x - panels.start(panel)).dot(panels.normal[panel]) < -1e-9 * panels.length[panel])
+                        c.convex_room = false;
+        }
+    }
+}
+
+const PanelGrid::Cell* PanelGrid::at(double x, double y) const {
+    const double fx = (x - origin_.x()) * inverse_width_, fy = (y - origin_.y()) * inverse_width_;
+    if (!(fx >= 0 && fy >= 0 && fx < nx_ && fy < ny_)) return nullptr;
+    const int cell = index_[std::size_t(fy) * std::size_t(nx_) + std::size_t(fx)];
+    return cell < 0 ? nullptr : &cells_[std::size_t(cell)];
+}
+
+PanelGrid::Crossing PanelGrid::first_crossing(const Cell& cell, const Vec2& a, const Vec2& b) {
+    const std::size_t n = cell.panel.size();
+    const double ax = a.x(), ay = a.y(), bx = b.x(), by = b.y();
+    constexpr double slack = 1e-9;  // panels overlap by a hair, or sight would slip between two of them
+    constexpr std::size_t chunk = 16;
+    Crossing first;
+    for (std::size_t begin = 0; begin < n; begin += chunk) {
+        double along[chunk];
+        const std::size_t m = std::min(chunk, n - begin);
+        const double *x = &cell.x[begin], *y = &cell.y[begin], *tx = &cell.tx[begin], *ty = &cell.ty[begin],
+                     *length = &cell.length[begin];
+#pragma omp simd
+        for (std::size_t k = 0; k < m; ++k) {
+            // distance along the normal (-ty, tx) and along the tangent, of both ends
+            const double da = -(ax - x[k]) * ty[k] + (ay - y[k]) * tx[k], db = -(bx - x[k]) * ty[k] + (by - y[k]) * tx[k];
+            const double sa = (ax - x[k]) * tx[k] + (ay - y[k]) * ty[k], sb = (bx - x[k]) * tx[k] + (by - y[k]) * ty[k];
+            const double t = da / (da - db), s = sa + t * (sb - sa);
+            const bool crosses = (da * db < 0) & (s >= -slack * length[k]) & (s <= (1 + slack) * length[k]);
+            along[k] = crosses ? t : 2.0;
+        }
+        for (std::size_t k = 0; k < m; ++k)
+            if (along[k] < first.along) first = {int(begin + k), along[k]};
+    }
+    return first;
+}
+
+void Visibility::prepare(const Particles<2>& particles, const Panels& panels, const PanelGrid& grid,
+                         const std::vector<Ghost>& ghosts, const std::vector<Corner>& corners,
+                         const std::vector<int>& patch, double tolerance) {
+    particles_ = &particles;
+    panels_ = &panels;
+    grid_ = &grid;
+    ghosts_ = &ghosts;
+    corners_ = &corners;
+    patch_ = &patch;
+    place_.resize(particles.count);
+    cell_.resize(particles.count);
+    const double in_front = 1e-3 * tolerance;
+    for (std::size_t i = 0; i < particles.count; ++i) {
+        Vec2& x = place_[i];
+        x = Vec2(particles.x[0][i], particles.x[1][i]);
+        cell_[i] = grid.at(x.x(), x.y());
+        if (!cell_[i]) continue;
+        for (const int k : cell_[i]->panel) {
+            const auto panel = std::size_t(k);
+            const Vec2 from = x - panels.start(panel);
+            const double d = from.dot(panels.normal[panel]), s = from.dot(panels.tangent[panel]);
+            if (d < in_front && d > -tolerance && s >= 0 && s <= panels.length[panel])
+                x += (in_front - d) * panels.normal[panel];
+        }
+    }
+}
+
+bool Visibility::sees_everything(std::size_t i) const { return !cell_[i] || cell_[i]->convex_room; }
+
+bool Visibility::sees(std::size_t i, const PanelGrid::Cell& cell, std::size_t lane, int* entry) const {
+    const std::size_t ghost_begin = particles_->ghost_begin();
+    const bool is_fluid = lane < ghost_begin;
+    const Vec2 target = is_fluid ? place_[lane] : Vec2(particles_->x[0][lane], particles_->x[1][lane]);
+    const auto crossing = PanelGrid::first_crossing(cell, place_[i], target);
+    *entry = crossing.entry < 0 ? -1 : cell.panel[std::size_t(crossing.entry)];
+    if (is_fluid) return crossing.entry < 0;
+    const Ghost& ghost = (*ghosts_)[lane - ghost_begin];
+    const auto of = [&](int panel) { return (*patch_)[std::size_t(panel)]; };
+    if (ghost.corner >= 0) {
+        if (crossing.entry < 0) return true;
+        const Corner& corner = (*corners_)[std::size_t(ghost.corner)];
+        return of(*entry) == of(corner.panel[0]) || of(*entry) == of(corner.panel[1]);
+    }
+    if (crossing.entry >= 0) return of(*entry) == of(ghost.panel);
+    // Past the end of a wall that just stops: seen from its front.
+    const auto panel = std::size_t(ghost.panel);
+    return (place_[i] - panels_->start(panel)).dot(panels_->normal[panel]) > 0;
+}
+
+std::uint8_t Visibility::lanes_seen(std::size_t i, std::size_t cluster, std::uint8_t in_reach) const {
+    unsigned seen = 0;
+    int entry = -1;
+    for (unsigned l = 0; l < W; ++l)
+        if ((in_reach >> l) & 1u)
+            seen |= unsigned(sees(i, *cell_[i], cluster * W + l, &entry)) << l;
+    return std::uint8_t(seen);
+}
+
+int Visibility::entry_panel(std::size_t i, std::size_t ghost) const {
+    int entry = -1;
+    if (!cell_[i] || !sees(i, *cell_[i], particles_->ghost_begin() + ghost, &entry)) return -1;
+    return entry;
+}
+
+}  // namespace aquagraph::fluid

@@ -1,0 +1,76 @@
+// Which pairs a wall keeps apart, in 2D.
+//
+// - Two fluid particles do not see each other through a panel (the two sides of a thin body).
+// - A ghost that panel k has mirrored is seen by those particles whose line of sight to it enters the wall through k's
+//   smooth patch: every place behind a wall is then seen once, however thin the body and at convex corners too.
+// - A corner's ghost is seen through either of the corner's patches.
+//
+// Particles that have slid behind a panel by less than half a spacing are treated as being just in front of it.
+#pragma once
+#include "physics/fluid/neighbour_lists.hpp"
+#include "physics/fluid/walls/panels.hpp"
+
+namespace aquagraph::fluid {
+
+struct Ghost {
+    std::uint32_t parent;      // fluid particle that is mirrored
+    std::int32_t panel;        // by this panel, or -1 …
+    std::int32_t corner = -1;  // … through this corner
+};
+
+// Panels near a place, in the form that the sight test reads: one entry per panel within reach of the cell.
+class PanelGrid {
+  public:
+    struct Cell {
+        std::vector<int> panel;
+        Scalars x, y, tx, ty, length;  // start, tangent, length of each
+        std::vector<int> patch;
+        bool convex_room = false;      // one straight patch or concave corners only: nothing hides anything
+        bool wet = false;              // some panel is wet
+    };
+    struct Crossing {
+        int entry = -1;    // index into the cell's arrays; -1: the line of sight meets no panel
+        double along = 2;  // 0 at its start, 1 at its end
+    };
+
+    // Registers every panel in the cells within `reach` of it.
+    void build(const Panels& panels, const std::vector<int>& patch, double reach);
+    // The cell at x, or null where no panel is within reach.
+    const Cell* at(double x, double y) const;
+    // The first panel that the segment from a to b crosses. The ends may lie anywhere.
+    static Crossing first_crossing(const Cell& cell, const Vec2& a, const Vec2& b);
+
+  private:
+    double inverse_width_ = 0;
+    Vec2 origin_ = Vec2::Zero();
+    int nx_ = 0, ny_ = 0;
+    std::vector<Cell> cells_;
+    std::vector<int> index_;  // nx × ny: which cell, or -1
+};
+
+class Visibility : public PairFilter<2> {
+  public:
+    // Prepares for the particles and ghosts as they stand. The arguments must outlive the last call of lanes_seen.
+    void prepare(const Particles<2>& particles, const Panels& panels, const PanelGrid& grid,
+                 const std::vector<Ghost>& ghosts, const std::vector<Corner>& corners, const std::vector<int>& patch,
+                 double tolerance);
+    bool sees_everything(std::size_t i) const override;
+    std::uint8_t lanes_seen(std::size_t i, std::size_t cluster, std::uint8_t in_reach) const override;
+    // The panel through which particle i sees ghost g, or -1 (no panel between them, or not seen).
+    int entry_panel(std::size_t i, std::size_t ghost) const;
+    // Where particle i is taken to be: in front of the panels that it touches.
+    const Vec2& place(std::size_t i) const { return place_[i]; }
+
+  private:
+    bool sees(std::size_t i, const PanelGrid::Cell& cell, std::size_t lane, int* entry) const;
+    const Particles<2>* particles_ = nullptr;
+    const Panels* panels_ = nullptr;
+    const PanelGrid* grid_ = nullptr;
+    const std::vector<Ghost>* ghosts_ = nullptr;
+    const std::vector<Corner>* corners_ = nullptr;
+    const std::vector<int>* patch_ = nullptr;
+    std::vector<Vec2> place_;
+    std::vector<const PanelGrid::Cell*> cell_;  // of each fluid particle
+};
+
+}  // namespace aquagraph::fluid
