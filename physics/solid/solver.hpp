@@ -75,7 +75,7 @@ struct Statistics {
 // Everything that the next step depends on, to write to a checkpoint.
 struct State {
     std::vector<double> displacements, velocities, accelerations;  // 2 × nodes
-    std::vector<double> external_forces;                           // loads of the last step, without gravity
+    std::vector<double> external_forces;                           // loads of the last step and gravity
     bool accelerations_known = false;
     double external_work = 0;
     Statistics statistics;
