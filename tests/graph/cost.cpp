@@ -16,11 +16,13 @@
 namespace {
 std::atomic<std::size_t> allocations{0};
 
-void* counted(std::size_t bytes, std::size_t alignment) {
+void* counted(std::size_t bytes, std::size_t alignment) noexcept {
     ++allocations;
-    void* const memory = alignment == 0
-                             ? std::malloc(bytes)
-                             : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    if (alignment == 0) return std::malloc(bytes);
+    return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+
+void* existing(void* memory) {
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
@@ -28,10 +30,13 @@ void* counted(std::size_t bytes, std::size_t alignment) {
 
 // TBB's own pools do not come here; everything else of the program does.
 void* operator new(std::size_t bytes) {
+    return existing(counted(bytes, 0));
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
     return counted(bytes, 0);
 }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
-    return counted(bytes, static_cast<std::size_t>(alignment));
+    return existing(counted(bytes, static_cast<std::size_t>(alignment)));
 }
 void operator delete(void* memory) noexcept {
     std::free(memory);
