@@ -33,6 +33,7 @@ void FlowRecord::add(const ReportFrame& frame) {
     if (seen_++ % stride_ != 0) return;
     const std::size_t every = std::max<std::size_t>(1, (n + limits_.particles - 1) / limits_.particles);
     Frame kept{frame.time,
+               every,
                thinned(frame.x, every),
                thinned(frame.y, every),
                thinned(frame.pressure, every),

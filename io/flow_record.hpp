@@ -29,6 +29,7 @@ class FlowRecord {
     };
     struct Frame {
         double time = 0;
+        std::size_t every = 1;  // of so many particles one is kept
         std::vector<float> x, y, pressure, speed;
         std::vector<std::vector<Point>> outlines;
     };

@@ -20,7 +20,8 @@ struct TaskTiming {
     std::string family;  // "fluid", "solid", "coupling", "output": its colour
     double seconds = 0;  // wall-clock time inside the task, all calls
     std::size_t calls = 0;
-    double pairs = 0;  // particle pairs treated in all; 0: the task has none
+    double pairs = 0;  // particle pairs (or what work_name says) treated in all; 0: not counted
+    std::string work_name = "pairs";
 };
 
 struct KeyNumber {

@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "io/report_parts.hpp"
+
+namespace aquagraph::io {
+namespace {
+
+using Row = std::pair<std::string, std::string>;
+
+std::string table(std::string_view title, const std::vector<Row>& rows) {
+    std::string text = fmt::format("<table class=\"facts\"><caption>{}</caption>\n", title);
+    for (const auto& [name, value] : rows)
+        text += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, html_escaped(value));
+    return text + "</table>\n";
+}
+
+std::string point(const Point& p) {
+    return fmt::format("({:g}, {:g})", p[0], p[1]);
+}
+std::string box(const Box& b) {
+    return fmt::format("{} – {} m", point(b.min), point(b.max));
+}
+
+std::string fluid_table(const FluidScene& fluid) {
+    std::vector<Row> rows{
+        {"particle spacing Δx", quantity(fluid.spacing, "m")},
+        {"kernel radius R/Δx", fmt::format("{:g}", fluid.support_ratio)},
+        {"density ρ0", fmt::format("{:g} kg/m³", fluid.density)},
+        {"sound speed c0", fmt::format("{:g} m/s", fluid.sound_speed)},
+        {"polytropic exponent γ", fmt::format("{:g}", fluid.polytropic_exponent)},
+        {"CFL", fmt::format("{:g}", fluid.cfl)},
+        {"reconstruction", fluid.reconstruction == Reconstruction::muscl ? "MUSCL" : "none"},
+        {"pressure at t = 0", fluid.initial_pressure == InitialPressure::hydrostatic ? "hydrostatic" : "zero"}};
+    for (const Box& b : fluid.boxes) rows.emplace_back("water", box(b));
+    return table("Fluid (SPH)", rows);
+}
+
+std::string solid_table(const SolidScene& solid) {
+    std::vector<Row> rows{{"name", solid.name}};
+    if (solid.box) {
+        rows.emplace_back("body", box(*solid.box));
+        rows.emplace_back("elements", fmt::format("{} × {}, eight nodes each", solid.elements[0], solid.elements[1]));
+    } else {
+        rows.emplace_back("mesh", solid.mesh.filename().string());
+    }
+    rows.emplace_back("law", solid.law == MaterialLaw::neo_hookean ? "neo-Hookean" : "Saint-Venant–Kirchhoff");
+    rows.emplace_back("plane", solid.plane == PlaneCondition::strain ? "strain" : "stress");
+    rows.emplace_back("density ρ", fmt::format("{:g} kg/m³", solid.density));
+    rows.emplace_back("Young's modulus E", quantity(solid.youngs_modulus, "Pa"));
+    rows.emplace_back("Poisson's ratio ν", fmt::format("{:g}", solid.poissons_ratio));
+    rows.emplace_back("time scheme",
+                      fmt::format("{}, αs = {:g}", solid.scheme == SolidScheme::hht ? "HHT" : "Newmark", solid.alpha));
+    if (solid.static_start) rows.emplace_back("start", "equilibrium under its own weight");
+    for (const Clamp& clamp : solid.clamps)
+        rows.emplace_back("clamped",
+                          fmt::format("{} ({}{})", clamp.set, clamp.fixed[0] ? "x" : "", clamp.fixed[1] ? "y" : ""));
+    if (!solid.wet.empty()) rows.emplace_back("wet", fmt::format("{}", fmt::join(solid.wet, ", ")));
+    for (const Track& track : solid.tracks)
+        rows.emplace_back("track", fmt::format("{} at {} m", track.name, point(track.point)));
+    return table("Solid (finite elements)", rows);
+}
+
+std::string family_class(std::string_view family) {
+    constexpr std::array<std::string_view, 4> known{"fluid", "solid", "coupling", "output"};
+    return std::find(known.begin(), known.end(), family) != known.end() ? std::string(family) : "other";
+}
+
+std::string rate(double per_second, std::string_view what) {
+    if (per_second >= 1e6) return fmt::format("{:.3g} M {}/s", per_second / 1e6, what);
+    if (per_second >= 1e3) return fmt::format("{:.3g} k {}/s", per_second / 1e3, what);
+    return fmt::format("{:.3g} {}/s", per_second, what);
+}
+
+}  // namespace
+
+std::string html_escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text) switch (c) {
+            case '&':
+                safe += "&amp;";
+                break;
+            case '<':
+                safe += "&lt;";
+                break;
+            case '>':
+                safe += "&gt;";
+                break;
+            case '"':
+                safe += "&quot;";
+                break;
+            default:
+                safe += c;
+        }
+    return safe;
+}
+
+std::string quantity(double value, std::string_view unit) {
+    if (!std::isfinite(value)) return "–";
+    static constexpr std::array<std::string_view, 6> takes_prefix{"m", "s", "Pa", "N", "J", "W"};
+    const std::string_view leading = unit.substr(0, unit.find('/'));
+    const bool prefixed = std::find(takes_prefix.begin(), takes_prefix.end(), leading) != takes_prefix.end();
+    static constexpr std::array<std::pair<double, std::string_view>, 7> prefixes{
+        {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}};
+    if (prefixed && value != 0)
+        for (const auto& [factor, prefix] : prefixes)
+            if (std::abs(value) >= 0.9995 * factor) return fmt::format("{:.3g} {}{}", value / factor, prefix, unit);
+    return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
+std::string duration(double seconds) {
+    if (!(seconds >= 0) || !std::isfinite(seconds)) return "–";
+    if (seconds < 99.95) return fmt::format("{:.3g} s", seconds);
+    const auto whole = static_cast<long long>(std::llround(seconds));
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+std::string key_number_cards(const Report& report, const std::vector<Comparison>& comparisons) {
+    std::string text;
+    const auto card = [&](std::string_view label, std::string_view value, std::string_view unit,
+                          std::string_view note) {
+        text += fmt::format(
+            "<div class=\"card\"><div class=\"label\">{}</div><div class=\"value\">{}<span "
+            "class=\"unit\">{}{}</span></div>"
+            "<div class=\"note\">{}</div></div>\n",
+            html_escaped(label), html_escaped(value), unit.empty() ? "" : " ", html_escaped(unit), html_escaped(note));
+    };
+    for (const Comparison& comparison : comparisons) {
+        if (!comparison.error || comparison.points == 0) continue;
+        const std::string rms = quantity(comparison.rms, comparison.unit);
+        const std::size_t blank = rms.find(' ');
+        card(fmt::format("{} against {}", comparison.column, comparison.label), rms.substr(0, blank),
+             blank == std::string::npos ? "" : rms.substr(blank + 1),
+             fmt::format("RMS, {:.1f} % of the peak; {} points, {:g}–{:g} s", 100 * comparison.normalised,
+                         comparison.points, comparison.window[0], comparison.window[1]));
+    }
+    for (const KeyNumber& number : report.key_numbers) card(number.label, number.value, number.unit, number.note);
+    return text.empty() ? "" : "<div class=\"cards\">\n" + text + "</div>\n";
+}
+
+std::string comparison_table(const std::vector<Comparison>& comparisons) {
+    std::string rows;
+    for (const Comparison& c : comparisons) {
+        if (!c.error) continue;
+        rows += fmt::format(
+            "<tr><td><code>{}</code></td><td>{}</td><td>{:g} – {:g} s</td><td class=\"number\">{}{}</td>"
+            "<td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
+            html_escaped(c.column), html_escaped(c.label), c.window[0], c.window[1], c.points,
+            c.points == c.points_in_window ? "" : fmt::format(" of {}", c.points_in_window), quantity(c.rms, c.unit),
+            c.points ? fmt::format("{:.1f} %", 100 * c.normalised) : "–",
+            c.points ? fmt::format("{} at {}", quantity(c.largest, c.unit), quantity(c.largest_time, "s")) : "–");
+    }
+    if (rows.empty()) return {};
+    return "<div class=\"wide\"><table class=\"list\"><thead><tr><th>column</th><th>reference</th><th>window</th><th "
+           "class=\"number\">points</th>"
+           "<th class=\"number\">RMS error</th><th class=\"number\">of the peak</th><th class=\"number\">largest "
+           "error</th></tr></thead><tbody>\n" +
+           rows + "</tbody></table></div>\n";
+}
+
+std::string task_table(const Report& report) {
+    if (report.tasks.empty()) return {};
+    std::vector<TaskTiming> tasks = report.tasks;
+    std::stable_sort(tasks.begin(), tasks.end(),
+                     [](const TaskTiming& a, const TaskTiming& b) { return a.seconds > b.seconds; });
+    const double sum =
+        std::accumulate(tasks.begin(), tasks.end(), 0.0, [](double s, const TaskTiming& t) { return s + t.seconds; });
+    const double whole = report.wall_seconds > 0 ? report.wall_seconds : sum,
+                 longest = std::max(tasks.front().seconds, 1e-300);
+    std::string text =
+        "<div class=\"wide\"><table class=\"list tasks\"><thead><tr><th>task</th><th>family</th><th "
+        "class=\"bars\"></th><th class=\"number\">time</th>"
+        "<th class=\"number\">share</th><th class=\"number\">runs</th><th class=\"number\">per run</th><th "
+        "class=\"number\">rate</th></tr></thead><tbody>\n";
+    for (const TaskTiming& task : tasks)
+        text += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td class=\"bars\"><div class=\"bar {}\" style=\"width:{:.2f}%\"></div></td><td "
+            "class=\"number\">{}</td>"
+            "<td class=\"number\">{:.1f} %</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+            "class=\"number\">{}</td></tr>\n",
+            html_escaped(task.name), html_escaped(task.family), family_class(task.family), 100 * task.seconds / longest,
+            duration(task.seconds), whole > 0 ? 100 * task.seconds / whole : 0, task.calls,
+            task.calls ? quantity(task.seconds / static_cast<double>(task.calls), "s") : "–",
+            task.pairs > 0 && task.seconds > 0 ? html_escaped(rate(task.pairs / task.seconds, task.work_name)) : "–");
+    text += "</tbody></table></div>\n";
+    return text + fmt::format(
+                      "<p class=\"remark\">Shares are of the {} that the run took. Tasks run side by side, so they may "
+                      "add up to more "
+                      "than 100 %.</p>\n",
+                      duration(whole));
+}
+
+std::string parameter_tables(const Scene& scene) {
+    std::string text = "<div class=\"facts-grid\">\n";
+    if (scene.fluid) text += fluid_table(*scene.fluid);
+    if (scene.solid) text += solid_table(*scene.solid);
+    std::vector<Row> rows{
+        {"simulated time", quantity(scene.end_time, "s")},
+        {"gravity", fmt::format("{} m/s²", point(scene.gravity))},
+        {"domain", fmt::format("{}, {}", box(scene.domain), scene.edge == DomainEdge::open ? "open" : "closed")}};
+    if (scene.fluid && scene.solid) {
+        rows.emplace_back("coupling",
+                          scene.coupling.algorithm == CouplingAlgorithm::cps ? "CPS (parallel)" : "CSS (sequential)");
+        rows.emplace_back("fluid steps per solid step p", fmt::format("{}", scene.coupling.ratio));
+        rows.emplace_back("step, of the CFL step", fmt::format("{:g}", scene.coupling.step_fraction));
+    }
+    for (const WallScene& wall : scene.walls)
+        rows.emplace_back(
+            "wall", fmt::format("{}, {} points{}, {}", wall.name, wall.points.size(), wall.closed ? ", closed" : "",
+                                wall.slip == Slip::free ? "free slip" : "no slip"));
+    return text + table("Run", rows) + "</div>\n";
+}
+
+}  // namespace aquagraph::io
