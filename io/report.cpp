@@ -16,6 +16,10 @@ std::string embedded(const nlohmann::json& data) {
     return text;
 }
 
+std::string seconds(double time) {
+    return fmt::format("{:.4g} s", time);
+}
+
 std::string banner(const Scene& scene, const Report& report) {
     if (report.outcome == RunOutcome::finished) return {};
     const bool failed = report.outcome == RunOutcome::failed;
@@ -24,7 +28,7 @@ std::string banner(const Scene& scene, const Report& report) {
         "there was up to then."
         "{}</div>\n",
         failed ? "failed" : "interrupted", failed ? "This run went wrong." : "This run was interrupted.",
-        quantity(report.reached_time, "s"), quantity(scene.end_time, "s"),
+        seconds(report.reached_time), seconds(scene.end_time),
         report.message.empty() ? "" : fmt::format("<pre>{}</pre>", html_escaped(report.message)));
 }
 
@@ -70,7 +74,7 @@ void write_report(const std::filesystem::path& file, const Scene& scene, const R
     page += fmt::format("<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n", html_escaped(scene.title),
                         assets::style_css);
     page += fmt::format("<header><h1>{}</h1><p class=\"sub\">{} · t = {} · computed by aquagraph</p></header>\n",
-                        html_escaped(scene.title), html_escaped(scene.name), quantity(report.reached_time, "s"));
+                        html_escaped(scene.title), html_escaped(scene.name), seconds(report.reached_time));
     page += banner(scene, report);
     page += key_number_cards(report, comparisons);
     page += section("Flow", player_html(flow_data));

@@ -200,7 +200,7 @@ std::string parameter_tables(const Scene& scene) {
     if (scene.fluid) text += fluid_table(*scene.fluid);
     if (scene.solid) text += solid_table(*scene.solid);
     std::vector<Row> rows{
-        {"simulated time", quantity(scene.end_time, "s")},
+        {"simulated time", fmt::format("{:g} s", scene.end_time)},
         {"gravity", fmt::format("{} m/s²", point(scene.gravity))},
         {"domain", fmt::format("{}, {}", box(scene.domain), scene.edge == DomainEdge::open ? "open" : "closed")}};
     if (scene.fluid && scene.solid) {

@@ -74,25 +74,31 @@
   const nice = (length) => { const p = 10 ** Math.floor(Math.log10(length)); return [5, 2, 1].map((k) => k * p).find((l) => l <= length) || p; };
   const lengthText = (l) => (l < 0.001 ? +(l * 1e6).toPrecision(3) + " µm" : l < 1 ? +(l * 1000).toPrecision(3) + " mm" : +l.toPrecision(3) + " m");
 
+  // Written on whatever is behind it.
+  function label(text, x, y, align) {
+    pen.textAlign = align;
+    pen.lineWidth = 4; pen.strokeStyle = css("--canvas"); pen.strokeText(text, x, y);
+    pen.fillStyle = css("--ink"); pen.fillText(text, x, y);
+  }
+
   function legend() {
-    const f = flow.fields[field.selectedIndex], ink = css("--ink");
+    const f = flow.fields[field.selectedIndex];
     pen.font = "12px " + getComputedStyle(document.body).fontFamily;
     pen.textBaseline = "alphabetic";
     if (f) {
       const w = Math.min(190, width / 3), x = width - w - 16, y = 30, s = prefixed(f.unit, Math.max(Math.abs(f.low), Math.abs(f.high)));
       for (let i = 0; i < w; ++i) { pen.fillStyle = palette[Math.round((255 * i) / (w - 1))]; pen.fillRect(x + i, y, 1.5, 9); }
-      pen.fillStyle = ink;
-      pen.textAlign = "left"; pen.fillText(+(f.low / s.factor).toPrecision(3), x, y + 23);
-      pen.textAlign = "right"; pen.fillText(+(f.high / s.factor).toPrecision(3), x + w, y + 23);
-      pen.textAlign = "center"; pen.fillText(f.name + " [" + s.unit + "]", x + w / 2, y - 7);
+      label(+(f.low / s.factor).toPrecision(3), x, y + 23, "left");
+      label(+(f.high / s.factor).toPrecision(3), x + w, y + 23, "right");
+      label(f.name + " [" + s.unit + "]", x + w / 2, y - 7, "center");
     }
     const bar = nice((0.22 * width) / scale), y = height - 16;
-    pen.strokeStyle = pen.fillStyle = ink;
+    pen.strokeStyle = css("--ink");
     pen.lineWidth = 2;
     pen.beginPath(); pen.moveTo(16, y - 4); pen.lineTo(16, y); pen.lineTo(16 + bar * scale, y); pen.lineTo(16 + bar * scale, y - 4); pen.stroke();
-    pen.textAlign = "center"; pen.fillText(lengthText(bar), 16 + (bar * scale) / 2, y - 6);
-    pen.textAlign = "left"; pen.font = "600 14px " + getComputedStyle(document.body).fontFamily;
-    pen.fillText("t = " + flow.frames[shown].t.toFixed(4) + " s", 16, 28);
+    label(lengthText(bar), 16 + (bar * scale) / 2, y - 7, "center");
+    pen.font = "600 14px " + getComputedStyle(document.body).fontFamily;
+    label("t = " + flow.frames[shown].t.toFixed(4) + " s", 16, 28, "left");
   }
 
   function paint() {

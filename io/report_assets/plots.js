@@ -70,16 +70,17 @@ function draw(plot, parent) {
       animation: false, parsing: false, normalized: true, maintainAspectRatio: false, spanGaps: false, interaction: { mode: "nearest", axis: "x", intersect: false },
       scales: {
         x: { type: "linear", min: 0, max: last > 0 ? last : undefined, title: title("time [s]"), grid: grid, ticks: ticks },
-        y: { title: title(unitText), grid: grid, ticks: ticks },
+        y: { grid: grid, ticks: ticks },
       },
       plugins: {
         windowBand: { windows: plot.windows },
         legend: {
           display: plot.series.length > 1, position: "bottom", align: "start",
-          labels: { color: css("--ink"), usePointStyle: true, boxWidth: 22, padding: 10, sort: (a, b) => b.datasetIndex - a.datasetIndex,
+          labels: { color: css("--ink"), usePointStyle: true, boxWidth: 22, boxHeight: 7, padding: 10,
+            sort: (a, b) => (plot.compared ? b.datasetIndex - a.datasetIndex : a.datasetIndex - b.datasetIndex),
             generateLabels: (chart) => Chart.defaults.plugins.legend.labels.generateLabels(chart).map((l) => {
               const set = chart.data.datasets[l.datasetIndex];
-              return { ...l, pointStyle: set.pointRadius ? set.pointStyle : "line", lineWidth: set.borderWidth };
+              return { ...l, pointStyle: set.pointRadius ? set.pointStyle : "line", lineWidth: set.borderWidth, lineDash: set.borderDash };
             }) },
         },
         tooltip: { callbacks: { title: (items) => "t = " + items[0].parsed.x.toPrecision(4) + " s",

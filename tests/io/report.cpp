@@ -126,7 +126,7 @@ TEST_CASE("an interrupted and a failed run say so at the top") {
     run.report.reached_time = 0.123;
     io::write_report(folder / "a.html", run.scene, run.report, run.history, run.comparisons, run.flow);
     std::string page = read(folder / "a.html");
-    CHECK(page.find("This run went wrong.</strong> It reached t = 123 ms of 400 ms") != std::string::npos);
+    CHECK(page.find("This run went wrong.</strong> It reached t = 0.123 s of 0.4 s") != std::string::npos);
     CHECK(page.find("a particle's density is &lt;nan&gt;") != std::string::npos);
     CHECK(page.find("class=\"banner") < page.find("class=\"cards"));
     run.report.outcome = io::RunOutcome::interrupted;
