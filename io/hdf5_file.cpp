@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/atomic_file.hpp"
+
 namespace aquagraph::io {
 namespace {
 
@@ -85,19 +87,24 @@ hid_t native<std::uint8_t>() {
 
 Hdf5File Hdf5File::create(const std::filesystem::path& file) {
     keep_quiet();
-    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    // In memory first: a full disk then is one failed write of ours, with the system's reason, and not a file that the
+    // library can neither finish nor let go.
+    const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fapl_core(access, 1 << 20, false);
+    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
     must(id >= 0, file, "cannot be written");
-    return {id, file};
+    return {id, file, true};
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
     keep_quiet();
     const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     must(id >= 0, file, "cannot be read");
-    return {id, file};
+    return {id, file, false};
 }
 
-Hdf5File::Hdf5File(Hdf5File&& other) noexcept : id_(std::exchange(other.id_, -1)), file_(std::move(other.file_)) {}
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : id_(std::exchange(other.id_, -1)), file_(std::move(other.file_)), writing_(other.writing_) {}
 
 Hdf5File::~Hdf5File() {
     if (id_ >= 0) H5Fclose(id_);
@@ -105,11 +112,15 @@ Hdf5File::~Hdf5File() {
 
 void Hdf5File::close() {
     if (id_ < 0) return;
-    const bool flushed = H5Fflush(id_, H5F_SCOPE_GLOBAL) >= 0;
-    const std::string why = flushed ? "" : reason();
-    const bool closed = H5Fclose(std::exchange(id_, -1)) >= 0;
-    if (!flushed) throw std::runtime_error(fmt::format("{}: cannot be written: {}", file_.string(), why));
-    must(closed, file_, "cannot be closed");
+    std::string image;
+    if (writing_) {
+        must(H5Fflush(id_, H5F_SCOPE_GLOBAL) >= 0, file_, "cannot be completed");
+        const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
+        image.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+        must(size > 0 && H5Fget_file_image(id_, image.data(), image.size()) == size, file_, "cannot be completed");
+    }
+    must(H5Fclose(std::exchange(id_, -1)) >= 0, file_, "cannot be closed");
+    if (writing_) write_file_atomically(file_, image);
 }
 
 void Hdf5File::group(const std::string& path) {

@@ -11,12 +11,13 @@ namespace aquagraph::io {
 
 class Hdf5File {
   public:
-    static Hdf5File create(const std::filesystem::path& file);  // replaces
-    static Hdf5File open(const std::filesystem::path& file);    // to read
+    // Built in memory; close() writes it, as a whole and atomically. Without close() nothing is written.
+    static Hdf5File create(const std::filesystem::path& file);
+    static Hdf5File open(const std::filesystem::path& file);  // to read
     Hdf5File(Hdf5File&& other) noexcept;
     Hdf5File& operator=(Hdf5File&&) = delete;
     ~Hdf5File();
-    // Flushes and closes; errors of the last writes come out here.
+    // Throws std::system_error with the system's own reason where the file cannot be written.
     void close();
 
     void group(const std::string& path);
@@ -39,9 +40,11 @@ class Hdf5File {
     bool text_attribute_is_fixed_ascii(const std::string& object, const std::string& name) const;
 
   private:
-    Hdf5File(std::int64_t id, std::filesystem::path file) : id_(id), file_(std::move(file)) {}
+    Hdf5File(std::int64_t id, std::filesystem::path file, bool writing)
+        : id_(id), file_(std::move(file)), writing_(writing) {}
     std::int64_t id_;
     std::filesystem::path file_;
+    bool writing_;
 };
 
 }  // namespace aquagraph::io

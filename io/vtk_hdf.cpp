@@ -4,13 +4,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
-#include <cstdio>
 #include <numeric>
 #include <stdexcept>
-#include <system_error>
 
-#include "io/atomic_file.hpp"
 #include "io/hdf5_file.hpp"
 
 namespace aquagraph::io {
@@ -113,7 +109,6 @@ void write_content(Hdf5File& file, const VtkFrame& frame) {
     for (const VtkArray& array : frame.cell_arrays) write_array(file, "VTKHDF/CellData", array, cells, frame.precision);
     file.group("VTKHDF/FieldData");
     file.dataset<double>("VTKHDF/FieldData/TimeValue", std::span(&frame.time, 1));
-    file.close();
 }
 
 }  // namespace
@@ -143,16 +138,9 @@ int nodes_per_cell(CellType type) {
 }
 
 void write_vtk_hdf(const std::filesystem::path& file, const VtkFrame& frame) {
-    const std::filesystem::path part = temporary_name(file);
-    try {
-        Hdf5File content = Hdf5File::create(part);
-        write_content(content, frame);
-    } catch (...) {
-        std::remove(part.c_str());
-        throw;
-    }
-    if (std::rename(part.c_str(), file.c_str()) != 0)
-        throw std::system_error(errno, std::generic_category(), file.string() + " cannot be replaced");
+    Hdf5File content = Hdf5File::create(file);
+    write_content(content, frame);
+    content.close();
 }
 
 }  // namespace aquagraph::io

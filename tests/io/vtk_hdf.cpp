@@ -156,7 +156,9 @@ TEST_CASE("a full disk is an error") {
     if (!std::filesystem::exists("/dev/full")) return;
     ScratchFolder folder;
     std::filesystem::create_symlink("/dev/full", io::temporary_name(folder / "a.hdf"));
-    CHECK_THROWS_AS(io::write_vtk_hdf(folder / "a.hdf", Particles(5000).frame()), std::runtime_error);
+    CHECK_THROWS_WITH_AS(io::write_vtk_hdf(folder / "a.hdf", Particles(5000).frame()),
+                         doctest::Contains("No space left"), std::runtime_error);
+    CHECK(!std::filesystem::exists(folder / "a.hdf"));
 }
 
 TEST_CASE("the series lists all frames with their times") {
