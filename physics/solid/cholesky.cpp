@@ -67,6 +67,11 @@ bool Cholesky::factorise() {
 void Cholesky::solve(std::span<const double> b, std::span<double> x) {
     Implementation& self = *implementation_;
     std::copy(b.begin(), b.end(), static_cast<double*>(self.right_side->x));
+    if (self.workspace_y != nullptr && self.workspace_y->nzmax == 4 * b.size()) {
+        // cholmod_solve2 asks for 4 × n, leaves the shape 1 × n behind, and would allocate anew because they differ.
+        self.workspace_y->nrow = self.workspace_y->d = 4;
+        self.workspace_y->ncol = b.size();
+    }
     cholmod_solve2(CHOLMOD_A, self.factor, self.right_side, nullptr, &self.solution, nullptr, &self.workspace_y,
                    &self.workspace_e, &self.common);
     if (self.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();

@@ -4,7 +4,7 @@
 //   correction   B δa = r,   B = M + w_1 β Δt² K
 // B hardly depends on Δt and K while M leads, so its factorisation lasts for many steps (modified Newton). It is
 // renewed
-//  - when Δt has left 0.8 … 1.25 of the one it was made for;
+//  - when Δt has left 0.7 … 1.4 of the one it was made for (stiff modes converge with the rate |1 - (Δt/Δt_made)²|);
 //  - within a step, when the iterations that are still to come at the present rate would cost more than a new one;
 //  - before a step, when the iterations spent because it is old add up to the cost of a new one.
 // It is made at the last accepted state, within a step at the present iterate. If all fails, the step is tried once
@@ -25,7 +25,7 @@
 namespace aquagraph::solid {
 
 namespace {
-constexpr double smallest_step_ratio = 0.8, largest_step_ratio = 1.25;
+constexpr double smallest_step_ratio = 0.7, largest_step_ratio = 1.4;
 constexpr int factorisation_cost = 10;  // linear solves with their residuals; measured 8 to 15 on plane meshes
 constexpr int steps_when_new = 4;       // the most iterations of so many steps are what a new factorisation needs
 }  // namespace

@@ -3,8 +3,7 @@
 // Both have γ = 1/2 - α and β = (1 - α)²/4, α in ]-1/3, 0], and are unconditionally stable in the linear range. HHT
 // weighs the forces of the two ends of the step and stays second order; Newmark with α < 0 does not and is first order
 // (its damping ratio is -α ω Δt/2 at low frequency, HHT's is of third order in ω Δt). With α = 0 they are the same, and
-// keep the energy of a linear body. Amplification of the highest frequencies, ω Δt → ∞, spectral radius:
-// (1 + α)/(1 - α) for Newmark, HHT takes the largest of that family from its own cubic; see the tests.
+// keep the energy of a linear body. The highest frequencies, ω Δt → ∞, shrink by (1 + α)/(1 - α) a step in both.
 #pragma once
 #include "physics/solid/solver.hpp"
 

@@ -1,0 +1,281 @@
+// The element and its assembly: shape functions, patch test, rigid motions, tangent, and a slow twin of all of it.
+#include "physics/solid/assembly.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "physics/solid/materials/neo_hookean.hpp"
+#include "physics/solid/materials/saint_venant_kirchhoff.hpp"
+#include "tests/solid/fixtures.hpp"
+
+using namespace aquagraph;
+using namespace aquagraph::solid;
+using namespace aquagraph::solid::test;
+
+namespace {
+
+// The same numbers in [-1, 1[ on every run.
+class Random {
+  public:
+    double operator()() {
+        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+        return static_cast<double>(state_ >> 11) / 4503599627370496.0 - 1;
+    }
+
+  private:
+    std::uint64_t state_ = 42;
+};
+
+// A box mesh whose inner corners are moved at random; mid-side nodes stay in the middle, so that a linear field is in
+// it.
+Mesh distorted_patch(int columns, int rows, double amount) {
+    Mesh mesh = box_mesh({0, 0}, {2, 1}, columns, rows);
+    std::vector<bool> fixed(mesh.nodes.size(), false);
+    for (const auto& [name, set] : mesh.node_sets)
+        for (const NodeIndex node : set) fixed[static_cast<std::size_t>(node)] = true;
+    Random random;
+    std::vector<bool> moved(mesh.nodes.size(), false);
+    for (const Quad8Nodes& element : mesh.elements)
+        for (std::size_t a = 0; a < 4; ++a) {
+            const auto n = static_cast<std::size_t>(element[a]);
+            if (fixed[n] || moved[n]) continue;
+            moved[n] = true;
+            for (double& x : mesh.nodes[n]) x += amount * random();
+        }
+    for (const Quad8Nodes& element : mesh.elements)
+        for (std::size_t s = 0; s < 4; ++s) {
+            const auto &A = mesh.nodes[static_cast<std::size_t>(element[s])],
+                       &B = mesh.nodes[static_cast<std::size_t>(element[(s + 1) % 4])];
+            mesh.nodes[static_cast<std::size_t>(element[4 + s])] = {0.5 * (A[0] + B[0]), 0.5 * (A[1] + B[1])};
+        }
+    return mesh;
+}
+
+Options steel_like() {
+    Options options;
+    options.youngs_modulus = 3;
+    options.poissons_ratio = 0.3;
+    options.density = 2;
+    return options;
+}
+
+// F_int, straight from the formula: one element, one point, one component at a time.
+template <class Material>
+std::vector<double> slow_internal_forces(const Mesh& mesh, const Material& material, const std::vector<double>& u) {
+    std::vector<double> f(u.size(), 0.0);
+    for (const Quad8Nodes& nodes : mesh.elements)
+        for (const auto& point : quad8::reduced_rule) {
+            const quad8::Shape s = quad8::shape(point.xi, point.eta);
+            const auto at = [&](std::size_t a) { return static_cast<std::size_t>(nodes[a]); };
+            double J[2][2] = {}, dU[2][2] = {};  // ∂X/∂ξ, ∂u/∂ξ
+            for (std::size_t a = 0; a < 8; ++a)
+                for (std::size_t i = 0; i < 2; ++i)
+                    for (std::size_t k = 0; k < 2; ++k) {
+                        J[i][k] += mesh.nodes[at(a)][i] * s.dN[a][k];
+                        dU[i][k] += u[2 * at(a) + i] * s.dN[a][k];
+                    }
+            const double determinant = J[0][0] * J[1][1] - J[0][1] * J[1][0];
+            const double inverse[2][2] = {{J[1][1] / determinant, -J[0][1] / determinant},
+                                          {-J[1][0] / determinant, J[0][0] / determinant}};
+            double H[2][2] = {};
+            for (std::size_t i = 0; i < 2; ++i)
+                for (std::size_t j = 0; j < 2; ++j)
+                    for (std::size_t k = 0; k < 2; ++k) H[i][j] += dU[i][k] * inverse[k][j];
+            const auto P = components(material.first_piola({H[0][0], H[0][1], H[1][0], H[1][1]}));
+            for (std::size_t a = 0; a < 8; ++a)
+                for (std::size_t i = 0; i < 2; ++i)
+                    for (std::size_t j = 0; j < 2; ++j)
+                        for (std::size_t k = 0; k < 2; ++k)
+                            f[2 * at(a) + i] += point.weight * determinant * P[2 * i + j] * s.dN[a][k] * inverse[k][j];
+        }
+    return f;
+}
+
+std::vector<double> random_displacements(const Mesh& mesh, double amount) {
+    Random random;
+    std::vector<double> u(2 * mesh.nodes.size());
+    for (double& x : u) x = amount * random();
+    return u;
+}
+
+}  // namespace
+
+TEST_CASE("shape functions are one at their node, sum to one, and their derivatives are derivatives") {
+    for (std::size_t a = 0; a < 8; ++a) {
+        const quad8::Shape s = quad8::shape(quad8::parent_nodes[a][0], quad8::parent_nodes[a][1]);
+        for (std::size_t b = 0; b < 8; ++b) CHECK(s.N[b] == doctest::Approx(a == b ? 1 : 0));
+    }
+    constexpr double xi = 0.3, eta = -0.6, h = 1e-6;
+    const quad8::Shape s = quad8::shape(xi, eta);
+    double sum = 0;
+    for (std::size_t a = 0; a < 8; ++a) {
+        sum += s.N[a];
+        CHECK(
+            s.dN[a][0] ==
+            doctest::Approx((quad8::shape(xi + h, eta).N[a] - quad8::shape(xi - h, eta).N[a]) / (2 * h)).epsilon(1e-8));
+        CHECK(
+            s.dN[a][1] ==
+            doctest::Approx((quad8::shape(xi, eta + h).N[a] - quad8::shape(xi, eta - h).N[a]) / (2 * h)).epsilon(1e-8));
+    }
+    CHECK(sum == doctest::Approx(1).epsilon(1e-15));
+}
+
+TEST_CASE("patch test: a distorted patch under a linear boundary displacement deforms linearly, stress constant") {
+    for (const MaterialLaw law : {MaterialLaw::saint_venant_kirchhoff, MaterialLaw::neo_hookean}) {
+        Options options = steel_like();
+        options.law = law;
+        Mesh mesh = distorted_patch(4, 3, 0.06);
+        const Solver undeformed(mesh, options);
+        // Displacement u = H X everywhere must be in equilibrium inside: forces at the inner nodes vanish.
+        const PlaneTensor H{0.2, 0.15, -0.1, -0.12};
+        std::vector<double> u(2 * mesh.nodes.size()), f(u.size());
+        for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+            const auto [X, Y] = mesh.nodes[n];
+            u[2 * n] = H.xx * X + H.xy * Y;
+            u[2 * n + 1] = H.yx * X + H.yy * Y;
+        }
+        Assembly assembly(mesh, options);
+        assembly.internal_forces(u, f, serial_loop);
+        std::vector<bool> boundary(mesh.nodes.size(), false);
+        for (const SurfaceEdge& edge : boundary_edges(mesh))
+            for (const NodeIndex n : edge) boundary[static_cast<std::size_t>(n)] = true;
+        for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+            if (!boundary[n]) CHECK(std::hypot(f[2 * n], f[2 * n + 1]) < 1e-14);
+
+        // And solved for: pulled by the tractions P·N of a uniaxial state the body takes that state.
+        options.clamps = {{"left", {true, false}}, {"bottom", {false, true}}};
+        Solver solver(mesh, options);
+        solver.solve_static(traction(mesh, "right", {0.5, 0}), serial_loop);
+        const std::size_t corner = nearest_node(mesh, 2, 1);
+        const auto solved = solver.displacements();
+        const double stretch_x = solved[2 * corner] / 2, stretch_y = solved[2 * corner + 1];
+        for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+            CHECK(std::abs(solved[2 * n] - stretch_x * mesh.nodes[n][0]) < 1e-9);
+            CHECK(std::abs(solved[2 * n + 1] - stretch_y * mesh.nodes[n][1]) < 1e-9);
+        }
+        std::vector<double> stress(mesh.elements.size());
+        solver.element_stress(stress);
+        for (const double s : stress) CHECK(s == doctest::Approx(stress[0]).epsilon(1e-8));
+    }
+}
+
+TEST_CASE("a rigid motion gives neither force nor stress nor energy") {
+    const Mesh mesh = distorted_patch(4, 3, 0.06);
+    for (const MaterialLaw law : {MaterialLaw::saint_venant_kirchhoff, MaterialLaw::neo_hookean}) {
+        Options options = steel_like();
+        options.law = law;
+        Assembly assembly(mesh, options);
+        std::vector<double> u(2 * mesh.nodes.size()), f(u.size()), stress(mesh.elements.size());
+        for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+            const auto [X, Y] = mesh.nodes[n];
+            u[2 * n] = std::cos(2.5) * X - std::sin(2.5) * Y - X + 3;
+            u[2 * n + 1] = std::sin(2.5) * X + std::cos(2.5) * Y - Y - 1;
+        }
+        CHECK(assembly.internal_forces(u, f, serial_loop) == doctest::Approx(1).epsilon(1e-13));
+        for (const double x : f) CHECK(std::abs(x) < 1e-13);
+        CHECK(std::abs(assembly.elements().energy(u)) < 1e-15 * options.youngs_modulus);  // rounding
+        assembly.elements().von_mises(u, stress);
+        for (const double s : stress) CHECK(std::abs(s) < 1e-12);
+    }
+}
+
+TEST_CASE("the vectorised forces are those of the formula; the forces are the slope of the energy") {
+    const Mesh mesh = distorted_patch(5, 3, 0.05);  // 15 elements: the last pack is not full
+    const std::vector<double> u = random_displacements(mesh, 0.02);
+    Options options = steel_like();
+    std::vector<double> f(u.size());
+    const auto compare = [&](const auto& material) {
+        Assembly assembly(mesh, options);
+        assembly.internal_forces(u, f, serial_loop);
+        const std::vector<double> slow = slow_internal_forces(mesh, material, u);
+        for (std::size_t k = 0; k < f.size(); ++k) CHECK(std::abs(f[k] - slow[k]) < 1e-14 * options.youngs_modulus);
+        constexpr double h = 1e-6;
+        for (std::size_t k = 0; k < u.size(); k += 7) {
+            std::vector<double> above = u, below = u;
+            above[k] += h;
+            below[k] -= h;
+            const double slope = (assembly.elements().energy(above) - assembly.elements().energy(below)) / (2 * h);
+            CHECK(std::abs(f[k] - slope) < 1e-8);
+        }
+    };
+    compare(SaintVenantKirchhoff::plane_strain(options.youngs_modulus, options.poissons_ratio));
+    options.plane = PlaneCondition::stress;
+    compare(SaintVenantKirchhoff::plane_stress(options.youngs_modulus, options.poissons_ratio));
+    options.plane = PlaneCondition::strain;
+    options.law = MaterialLaw::neo_hookean;
+    compare(NeoHookean::plane_strain(options.youngs_modulus, options.poissons_ratio));
+}
+
+TEST_CASE("the assembled tangent is the slope of the assembled forces, without the clamped rows") {
+    const Mesh mesh = distorted_patch(3, 3, 0.05);
+    const std::vector<double> u = random_displacements(mesh, 0.02);
+    Options options = steel_like();
+    options.clamps = {{"left", {true, true}}, {"top", {false, true}}};
+    for (const MaterialLaw law : {MaterialLaw::saint_venant_kirchhoff, MaterialLaw::neo_hookean}) {
+        options.law = law;
+        Assembly assembly(mesh, options);
+        std::vector<double> values(assembly.rows().size()), above(u.size()), below(u.size());
+        assembly.system_matrix(u, 1, 0, values, serial_loop);
+        const std::size_t n = assembly.equations();
+        std::vector<std::vector<double>> K(n, std::vector<double>(n, 0.0));
+        for (std::size_t c = 0; c < n; ++c)
+            for (int k = assembly.column_starts()[c]; k < assembly.column_starts()[c + 1]; ++k) {
+                const auto r = static_cast<std::size_t>(assembly.rows()[static_cast<std::size_t>(k)]);
+                K[r][c] = K[c][r] = values[static_cast<std::size_t>(k)];
+            }
+        constexpr double h = 1e-6;
+        double worst = 0;
+        for (std::size_t c = 0; c < n; ++c) {
+            std::vector<double> moved = u;
+            moved[assembly.freedoms()[c]] += h;
+            assembly.internal_forces(moved, above, serial_loop);
+            moved[assembly.freedoms()[c]] -= 2 * h;
+            assembly.internal_forces(moved, below, serial_loop);
+            for (std::size_t r = 0; r < n; ++r) {
+                const std::size_t f = assembly.freedoms()[r];
+                worst = std::max(worst, std::abs(K[r][c] - (above[f] - below[f]) / (2 * h)));
+            }
+        }
+        CHECK(worst < 1e-8);
+        for (std::size_t c = 0; c < n; ++c) CHECK(assembly.stiffness_diagonal()[c] == K[c][c]);
+    }
+}
+
+TEST_CASE("the mass: total, centre, product with vectors, and the matrix agree") {
+    Mesh mesh = distorted_patch(4, 3, 0.05);
+    Options options = steel_like();
+    options.thickness = 0.5;
+    options.gravity = {1.5, -9.81};
+    Assembly assembly(mesh, options);
+    CHECK(assembly.mass() == doctest::Approx(2 * 0.5 * 2).epsilon(1e-14));  // area × thickness × density
+    std::vector<double> x(2 * mesh.nodes.size()), y(x.size());
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) x[2 * n] = mesh.nodes[n][0];
+    assembly.multiply_mass(x, y, serial_loop);
+    double first_moment = 0, second_moment = 0, weight_x = 0, weight_y = 0;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+        first_moment += y[2 * n];
+        second_moment += x[2 * n] * y[2 * n];
+        weight_x += assembly.gravity_forces()[2 * n];
+        weight_y += assembly.gravity_forces()[2 * n + 1];
+        CHECK(y[2 * n + 1] == 0);
+    }
+    CHECK(first_moment == doctest::Approx(assembly.mass() * 1).epsilon(1e-13));
+    CHECK(second_moment == doctest::Approx(assembly.mass() * 4.0 / 3).epsilon(1e-13));
+    CHECK(weight_x == doctest::Approx(assembly.mass() * 1.5).epsilon(1e-13));
+    CHECK(weight_y == doctest::Approx(assembly.mass() * -9.81).epsilon(1e-13));
+
+    std::vector<double> values(assembly.rows().size()), z(x.size(), 0.0);
+    const std::vector<double> v = random_displacements(mesh, 1);
+    assembly.system_matrix(v, 0, 1, values, serial_loop);
+    for (std::size_t c = 0; c < assembly.equations(); ++c)
+        for (int k = assembly.column_starts()[c]; k < assembly.column_starts()[c + 1]; ++k) {
+            const auto r = static_cast<std::size_t>(assembly.rows()[static_cast<std::size_t>(k)]);
+            z[r] += values[static_cast<std::size_t>(k)] * v[c];
+            if (r != c) z[c] += values[static_cast<std::size_t>(k)] * v[r];
+        }
+    assembly.multiply_mass(v, y, serial_loop);
+    for (std::size_t k = 0; k < z.size(); ++k) CHECK(std::abs(z[k] - y[k]) < 1e-14);
+}

@@ -1,0 +1,109 @@
+// What several tests of the solid need: loads on surfaces, nodes by position, a loop on several threads, the lowest
+// frequency by inverse iteration.
+#pragma once
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "physics/block_loop.hpp"
+#include "physics/solid/assembly.hpp"
+#include "physics/solid/cholesky.hpp"
+#include "physics/solid/mesh.hpp"
+#include "physics/solid/solver.hpp"
+
+namespace aquagraph::solid::test {
+
+// Consistent nodal forces of a constant traction [N/m²] on a straight-sided surface: 1/6, 1/6, 4/6 of each edge.
+inline std::vector<double> traction(const Mesh& mesh, const std::string& surface, std::array<double, 2> t) {
+    std::vector<double> forces(2 * mesh.nodes.size(), 0.0);
+    constexpr std::array<double, 3> share{1.0 / 6, 1.0 / 6, 4.0 / 6};
+    for (const SurfaceEdge& edge : mesh.surface(surface)) {
+        const auto &A = mesh.nodes[static_cast<std::size_t>(edge[0])],
+                   &B = mesh.nodes[static_cast<std::size_t>(edge[1])];
+        const double length = std::hypot(B[0] - A[0], B[1] - A[1]);
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < 2; ++i)
+                forces[2 * static_cast<std::size_t>(edge[k]) + i] += share[k] * length * t[i];
+    }
+    return forces;
+}
+
+inline std::size_t nearest_node(const Mesh& mesh, double x, double y) {
+    std::size_t best = 0;
+    const auto distance = [&](std::size_t n) { return std::hypot(mesh.nodes[n][0] - x, mesh.nodes[n][1] - y); };
+    for (std::size_t n = 1; n < mesh.nodes.size(); ++n)
+        if (distance(n) < distance(best)) best = n;
+    return best;
+}
+
+inline std::vector<double> no_load(const Mesh& mesh) {
+    return std::vector<double>(2 * mesh.nodes.size(), 0.0);
+}
+
+inline std::vector<double> copy(std::span<const double> values) {
+    return {values.begin(), values.end()};
+}
+
+// A box mesh with every node moved.
+template <class Map>
+Mesh mapped(Mesh mesh, const Map& map) {
+    for (auto& X : mesh.nodes) X = map(X);
+    return mesh;
+}
+
+// A loop on real threads that take blocks as they come.
+struct ThreadedLoop {
+    unsigned threads = 4;
+    void operator()(std::size_t blocks, BlockBody body) const {
+        std::atomic<std::size_t> next{0};
+        std::vector<std::thread> team;
+        for (unsigned t = 0; t < threads; ++t)
+            team.emplace_back([&] {
+                for (std::size_t block = next++; block < blocks; block = next++) body(block);
+            });
+        for (std::thread& thread : team) thread.join();
+    }
+};
+
+struct Mode {
+    double frequency = 0;       // [Hz]
+    std::vector<double> shape;  // 2 × nodes, largest component 1
+};
+
+// Lowest eigenpair K φ = ω² M φ of the undeformed body by inverse iteration.
+inline Mode lowest_mode(const Mesh& mesh, const Options& options) {
+    Assembly assembly(mesh, options);
+    Cholesky cholesky(assembly.column_starts(), assembly.rows());
+    const std::size_t size = 2 * mesh.nodes.size();
+    std::vector<double> x(size, 0.0), Mx(size), b(assembly.equations()), y(assembly.equations());
+    assembly.system_matrix(x, 1, 0, cholesky.values(), serial_loop);
+    if (!cholesky.factorise()) throw ConvergenceError("the stiffness is singular");
+    for (std::size_t e = 0; e < b.size(); ++e) x[assembly.freedoms()[e]] = 1.0 + static_cast<double>(e % 7);
+    double omega_squared = 0;
+    for (int k = 0; k < 60; ++k) {
+        assembly.multiply_mass(x, Mx, serial_loop);
+        for (std::size_t e = 0; e < b.size(); ++e) b[e] = Mx[assembly.freedoms()[e]];
+        cholesky.solve(b, y);
+        double yb = 0, yMy = 0;
+        for (std::size_t e = 0; e < b.size(); ++e) {
+            yb += y[e] * b[e];
+            x[assembly.freedoms()[e]] = y[e];
+        }
+        assembly.multiply_mass(x, Mx, serial_loop);
+        for (std::size_t e = 0; e < b.size(); ++e) yMy += y[e] * Mx[assembly.freedoms()[e]];
+        omega_squared = yb / yMy;
+        for (double& value : x) value /= std::sqrt(yMy);
+    }
+    double largest = 0;
+    for (const double value : x)
+        if (std::abs(value) > std::abs(largest)) largest = value;
+    for (double& value : x) value /= largest;
+    return {std::sqrt(omega_squared) / (2 * M_PI), x};
+}
+
+}  // namespace aquagraph::solid::test
