@@ -8,6 +8,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/scene_validation.hpp"
+#include "io/suggestion.hpp"
 #include "io/toml_document.hpp"
 
 namespace aquagraph::io {
@@ -153,6 +154,21 @@ std::string result_name(const std::filesystem::path& scene_file) {
 }
 
 }  // namespace
+
+void check_compared_columns(const Scene& scene, std::span<const std::string> columns) {
+    std::vector<SceneComplaint> complaints;
+    for (std::size_t i = 0; i < scene.comparisons.size(); ++i) {
+        const std::string& column = scene.comparisons[i].column;
+        if (std::find(columns.begin(), columns.end(), column) != columns.end()) continue;
+        const std::string key = fmt::format("compare[{}].column", i);
+        const auto guess = nearest(column, columns);
+        complaints.push_back({key, position_of(scene.positions, key),
+                              fmt::format("history.csv will have no column \"{}\"", column),
+                              guess ? fmt::format("did you mean \"{}\"?", *guess)
+                                    : fmt::format("it will have {}", fmt::join(columns, ", "))});
+    }
+    if (!complaints.empty()) throw SceneError(scene.file, scene.text, std::move(complaints));
+}
 
 Scene read_scene(const std::filesystem::path& file) {
     Scene scene;

@@ -1,6 +1,7 @@
 // Reads a scene file (TOML) into plain data, or says everything that is wrong with it, each with its place in the file.
 #pragma once
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,5 +39,9 @@ Scene read_scene(const std::filesystem::path& file);
 // For what only turns out later (a set that the mesh does not have): an error that points at `key` of a scene already
 // read. An unknown key points at the nearest enclosing table that stands in the file.
 SceneError scene_error(const Scene& scene, std::string_view key, std::string message, std::string help);
+
+// Throws SceneError where a [[compare]] names a column that the run will not write: to be asked before the run, not
+// after it. columns: the names of history.csv without units.
+void check_compared_columns(const Scene& scene, std::span<const std::string> columns);
 
 }  // namespace aquagraph::io

@@ -330,3 +330,17 @@ TEST_CASE("a mistake that shows later points into the file too") {
     CHECK(std::string(error.what()).find("scene.toml:18:8: error: the mesh has no set") != std::string::npos);
     CHECK(io::scene_error(scene, "solid.box.unknown", "m", "h").complaints()[0].position.line == 19);
 }
+
+TEST_CASE("a compared column that the run will not write") {
+    ScratchFolder folder;
+    folder.write("curve.csv", "0, 1\n");
+    const io::Scene scene = io::read_scene(
+        folder.write("scene.toml", sound + "[[compare]]\ncolumn = \"tpi_x\"\nfile = \"curve.csv\"\nlabel = \"a\"\n"));
+    const std::vector<std::string> columns{"time", "tip_x", "tip_y"};
+    CHECK_THROWS_WITH_AS(io::check_compared_columns(scene, columns),
+                         doctest::Contains("scene.toml:35:10: error: history.csv will have no column \"tpi_x\""),
+                         io::SceneError);
+    CHECK_THROWS_WITH_AS(io::check_compared_columns(scene, columns), doctest::Contains("did you mean \"tip_x\"?"),
+                         io::SceneError);
+    CHECK_NOTHROW(io::check_compared_columns(scene, std::vector<std::string>{"tpi_x"}));
+}
