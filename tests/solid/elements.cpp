@@ -162,6 +162,35 @@ TEST_CASE("patch test: a distorted patch under a linear boundary displacement de
     }
 }
 
+TEST_CASE("one element held as a rigid body has a mode without energy, two elements have none") {
+    const auto held = [](Mesh mesh) {
+        mesh.node_sets["pin"] = {static_cast<NodeIndex>(nearest_node(mesh, 0, 0))};
+        mesh.node_sets["roller"] = {static_cast<NodeIndex>(nearest_node(mesh, 2, 0))};
+        Options options = steel_like();
+        options.clamps = {{"pin", {true, true}}, {"roller", {false, true}}};
+        return Solver(mesh, options);
+    };
+    const auto pull = [&](const Mesh& mesh) {
+        Solver solver = held(mesh);
+        const auto load = traction(mesh, "right", {0.01, 0});
+        std::vector<double> balanced = load;  // pulled at both ends
+        const auto left = traction(mesh, "left", {-0.01, 0});
+        for (std::size_t f = 0; f < load.size(); ++f) balanced[f] += left[f];
+        solver.solve_static(balanced, serial_loop);
+        // Uniaxial, plane strain: E_xx = (1 - ν²)/E of a stress so small that it is linear to a percent.
+        const double expected = 2 * 0.01 * (1 - 0.09) / steel_like().youngs_modulus;
+        CHECK(solver.displacements()[2 * nearest_node(mesh, 2, 1)] -
+                  solver.displacements()[2 * nearest_node(mesh, 0, 1)] ==
+              doctest::Approx(expected).epsilon(0.01));
+    };
+    pull(box_mesh({0, 0}, {2, 1}, 2, 1));
+    pull(box_mesh({0, 0}, {2, 1}, 1, 2));
+    pull(distorted_patch(3, 2, 0.05));
+    Solver single = held(box_mesh({0, 0}, {2, 1}, 1, 1));
+    CHECK_THROWS_AS(single.solve_static(traction(single.mesh(), "right", {0.01, 0.003}), serial_loop),
+                    ConvergenceError);
+}
+
 TEST_CASE("a rigid motion gives neither force nor stress nor energy") {
     const Mesh mesh = distorted_patch(4, 3, 0.06);
     for (const MaterialLaw law : {MaterialLaw::saint_venant_kirchhoff, MaterialLaw::neo_hookean}) {
