@@ -44,7 +44,8 @@ template <int D>
 void update_state(Particles<D>& s, const Tait& tait, LaneRange lanes) {
     for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
         const double rho = tait.reference_density + s.deviation[i];
-        s.p[i] = tait.pressure(s.deviation[i]);
+        const double p = tait.pressure(s.deviation[i]);
+        s.p[i] = p < 0 && s.fullness[i] < fullness_of_interior ? 0.0 : p;
         s.impedance[i] = rho * tait.sound_speed_at(s.deviation[i]);
         s.volume[i] = s.mass[i] / rho;
     }

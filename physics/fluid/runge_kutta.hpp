@@ -24,6 +24,10 @@ template <int D>
 void advance_stage(Particles<D>& particles, RungeKutta<D>& rk, const Tait& tait, int stage, double dt,
                    LaneRange lanes);
 
+// Near a free surface water does not hold together: particles whose support is emptier than this bear no tension.
+// Inside, suction is physical (p is relative to the air) and stays.
+inline constexpr double fullness_of_interior = 0.75;
+
 // Pressure, impedance, volume from deviation and mass for the particles of these lanes.
 template <int D>
 void update_state(Particles<D>& particles, const Tait& tait, LaneRange lanes);

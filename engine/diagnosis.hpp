@@ -1,0 +1,13 @@
+// What to tell a user about a particle that cannot be computed further.
+#pragma once
+#include <string>
+
+#include "engine/model.hpp"
+#include "tasks/stepping.hpp"
+
+namespace aquagraph::engine {
+
+// Time, ids, positions, neighbours and the likely cause, as a few lines of text.
+std::string describe(const Model& model, const tasks::SickParticle& sick);
+
+}  // namespace aquagraph::engine

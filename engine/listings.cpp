@@ -1,0 +1,112 @@
+// One coupling cycle, top to bottom.
+//
+//   time step                                  CPS fixes Δt for the whole cycle (6.4), CSS chooses it anew each step
+//   p times
+//     neighbour search                         lists, order of particles, which particle is mirrored where
+//     4 times
+//       wall motion -> ghosts                  boundary data are refreshed at every substep, lists are not
+//       gradients -> ghost gradients           a ghost's gradient is its parent's, mirrored: hence after it
+//       fluxes -> Runge–Kutta stage
+//     clock, examine
+//   wall motion, ghosts, gradients, loads      the load at the end of the cycle, from the state reached there
+//   FE Newton solve                            CPS reads the loads of the last exchange: nothing above holds it up, and
+//                                              it runs beside the fluid. CSS reads the loads just computed: one edge
+//                                              more, and it waits for the fluid.
+//   exchange
+#include "engine/listings.hpp"
+
+#include "tasks/fluid_pass.hpp"
+#include "tasks/neighbours.hpp"
+#include "tasks/solid_step.hpp"
+#include "tasks/stepping.hpp"
+#include "tasks/walls.hpp"
+
+namespace aquagraph::engine {
+
+namespace {
+
+using tasks::Task;
+
+class Listing {
+  public:
+    explicit Listing(Model& model) : model_(model) {}
+
+    void group(const std::string& name) { group_ = name; }
+    void add(Task task) {
+        task.group = group_;
+        tasks_.push_back(std::move(task));
+    }
+
+    // One step of the fluid; `label` tells the steps of a cycle apart.
+    void fluid_step(const std::string& label) {
+        fluid::Fluid<2>& fluid = *model_.fluid;
+        group(label);
+        coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
+        fluid::GhostWalls* walls = model_.walls ? &*model_.walls : nullptr;
+        add(tasks::neighbour_search(fluid, walls, interface, model_.clock, label));
+        for (int stage = 0; stage < fluid::stages; ++stage) {
+            const std::string name = "stage " + std::to_string(stage + 1);
+            group(label + ", " + name);
+            boundary(fluid::stage_time[stage], name);
+            add(tasks::gradients(fluid, name));
+            if (walls) add(tasks::ghost_gradients(fluid, *walls, name));
+            add(tasks::fluxes(fluid, name));
+            add(tasks::runge_kutta_stage(fluid, model_.clock, stage));
+        }
+        group(label);
+        add(tasks::advance_clock(model_.clock, label));
+        add(tasks::examine(fluid, label));
+    }
+
+    // Walls and ghosts at `fraction` of the present step.
+    void boundary(double fraction, const std::string& label) {
+        if (!model_.walls) return;
+        if (model_.interface)
+            add(tasks::wall_motion(*model_.walls, *model_.interface, model_.clock, fraction, label));
+        add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
+    }
+
+    void loads() {
+        boundary(0, "interface");
+        add(tasks::interface_gradients(*model_.fluid, *model_.interface));
+        add(tasks::ghost_gradients(*model_.fluid, *model_.walls, "interface"));
+        add(tasks::interface_loads(*model_.fluid, *model_.walls, *model_.interface));
+    }
+
+    std::vector<Task> take() { return std::move(tasks_); }
+
+  private:
+    Model& model_;
+    std::string group_;
+    std::vector<Task> tasks_;
+};
+
+}  // namespace
+
+std::vector<Task> coupling_cycle(Model& model, const io::CouplingScene& coupling) {
+    Listing listing(model);
+    const bool coupled = model.interface.has_value();
+    const bool cps = coupled && coupling.algorithm == io::CouplingAlgorithm::cps;
+    const int p = coupled ? coupling.ratio : 1;
+
+    if (cps)
+        listing.add(tasks::time_step(*model.fluid, model.clock,
+                                     {.fraction = coupling.step_fraction, .steps = p, .whole_cycle = true}, ""));
+    for (int step = 1; step <= p; ++step) {
+        const std::string label = "step " + std::to_string(step);
+        listing.group(label);
+        if (!cps)
+            listing.add(tasks::time_step(*model.fluid, model.clock, {.first_of_cycle = step == 1}, label));
+        listing.fluid_step(label);
+    }
+    if (!coupled) return listing.take();
+
+    listing.group("exchange");
+    listing.loads();
+    listing.add(tasks::newton_solve(*model.solid, *model.interface, model.clock,
+                                    cps ? tasks::LoadsOf::last_exchange : tasks::LoadsOf::this_cycle));
+    listing.add(tasks::exchange(*model.solid, *model.interface, model.clock));
+    return listing.take();
+}
+
+}  // namespace aquagraph::engine

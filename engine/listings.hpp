@@ -1,0 +1,14 @@
+// The algorithm: one coupling cycle as a sequential listing of tasks, from which the graph is derived.
+#pragma once
+#include <vector>
+
+#include "engine/model.hpp"
+#include "tasks/task.hpp"
+
+namespace aquagraph::engine {
+
+// The cycle of the scene's algorithm: p fluid steps and one solid step; without a solid, one fluid step.
+// Results are added by the caller at the end (engine/results.hpp).
+std::vector<tasks::Task> coupling_cycle(Model& model, const io::CouplingScene& coupling);
+
+}  // namespace aquagraph::engine

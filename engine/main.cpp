@@ -1,0 +1,41 @@
+// The command line.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+
+#include "engine/run.hpp"
+#include "engine/version.hpp"
+#include "io/scene_reader.hpp"
+
+int main(int argc, char** argv) {
+    using namespace aquagraph;
+    CLI::App app("Smoothed Particle Hydrodynamics and Finite Elements, coupled as a graph of tasks");
+    app.set_version_flag("--version", std::string("aquagraph ") + engine::version);
+    app.require_subcommand(1);
+
+    std::filesystem::path scene_file;
+    engine::RunOptions options;
+    auto* run = app.add_subcommand("run", "Compute a scene");
+    run->add_option("scene", scene_file, "Scene file (TOML)")->required();
+    run->add_option("--out", options.folder, "Folder of results (default: results/<scene name>)");
+    run->add_option("--threads", options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+    run->add_option("--trace", options.trace, "Write when every task ran on which thread (Chrome trace JSON)");
+    run->add_flag("--quiet", options.quiet, "No progress, no table");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const int code = app.exit(error);
+        return code == 0 ? engine::success : engine::bad_input;
+    }
+    try {
+        const io::Scene scene = io::read_scene(scene_file);
+        return engine::run(scene, options, std::cout, std::cerr);
+    } catch (const io::SceneError& error) {
+        std::cerr << error.what() << "\n";
+        return engine::bad_input;
+    } catch (const std::exception& error) {
+        std::cerr << "aquagraph: " << error.what() << "\n";
+        return engine::bad_input;
+    }
+}

@@ -1,0 +1,38 @@
+// A scene turned into the things that are computed: particles, walls, the solid, their interface, the clock.
+// What a scene does not have is not there.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "io/scene.hpp"
+#include "physics/clock.hpp"
+#include "physics/coupling/interface.hpp"
+#include "physics/fluid/fluid.hpp"
+#include "physics/fluid/walls/ghosts.hpp"
+#include "physics/solid/solver.hpp"
+
+namespace aquagraph::engine {
+
+struct Model {
+    std::optional<fluid::Fluid<2>> fluid;
+    std::optional<fluid::GhostWalls> walls;
+    std::optional<solid::Solver> solid;
+    std::optional<coupling::Interface> interface;
+    Clock clock;
+};
+
+// Throws io::SceneError for what only shows once meshes are read: a set that does not exist, water inside the solid.
+// The solid's static start is not computed yet (it costs time): start() does.
+// By pointer, since tasks keep references to the parts.
+std::unique_ptr<Model> make_model(const io::Scene& scene);
+
+// Static equilibrium of the solid where the scene asks for it, first loads, first exchange.
+void start(Model& model, const io::Scene& scene);
+
+// The node that a track follows: the nearest to its point in the reference configuration.
+std::size_t nearest_node(const solid::Mesh& mesh, const io::Point& point);
+
+// Bytes that particles, lists and ghosts take, per fluid particle.
+double bytes_per_particle(const fluid::Fluid<2>& fluid);
+
+}  // namespace aquagraph::engine

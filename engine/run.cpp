@@ -1,0 +1,167 @@
+#include "engine/run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <map>
+#include <optional>
+
+#include "engine/diagnosis.hpp"
+#include "engine/listings.hpp"
+#include "engine/results.hpp"
+#include "io/progress.hpp"
+#include "tasks/executor.hpp"
+#include "tasks/task_graph.hpp"
+#include "tasks/trace.hpp"
+
+namespace aquagraph::engine {
+
+namespace {
+
+volatile std::sig_atomic_t interrupt_requested = 0;
+
+// Turns Ctrl-C into a request that the loop below sees; a second one ends the program at once.
+class InterruptGuard {
+  public:
+    InterruptGuard() {
+        interrupt_requested = 0;
+        for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int number) {
+            interrupt_requested = 1;
+            std::signal(number, SIG_DFL);
+        });
+    }
+    ~InterruptGuard() {
+        for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+    }
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+std::string pass_name(const std::string& task) { return task.substr(0, task.find(" (")); }
+
+std::string family_of(const std::string& pass) {
+    if (pass == "FE Newton solve") return "solid";
+    if (pass == "exchange" || pass == "interface loads" || pass == "wall motion") return "coupling";
+    if (pass == "history" || pass == "frames") return "output";
+    return "fluid";
+}
+
+// Tasks of one name, "fluxes (stage 2)", are one pass, "fluxes". In the order of the listing.
+std::vector<PassTime> passes_of(const tasks::TaskGraph& graph) {
+    std::vector<PassTime> passes;
+    std::map<std::string, std::size_t> place;
+    for (std::size_t k = 0; k < graph.size(); ++k) {
+        const std::string name = pass_name(graph.names()[k]);
+        const auto [at, is_new] = place.try_emplace(name, passes.size());
+        if (is_new) passes.push_back({.name = name, .family = family_of(name)});
+        PassTime& pass = passes[at->second];
+        const tasks::TaskStatistics statistics = graph.statistics(k);
+        pass.calls += statistics.runs;
+        pass.wall_seconds += statistics.wall_seconds;
+        pass.busy_seconds += statistics.busy_seconds;
+        if (name == "gradients" || name == "fluxes" || name == "interface loads")
+            pass.pairs += double(statistics.work_items);
+    }
+    return passes;
+}
+
+void print_table(std::ostream& out, const RunFigures& figures) {
+    double busy = 0;
+    for (const PassTime& pass : figures.passes) busy += pass.busy_seconds;
+    out << fmt::format("{:<20} {:>9} {:>10} {:>10} {:>7} {:>16}\n", "task", "calls", "wall [s]", "threads [s]", "share",
+                       "Mpairs/s/core");
+    for (const PassTime& pass : figures.passes)
+        out << fmt::format("{:<20} {:>9} {:>10.3f} {:>10.3f} {:>6.1f}% {:>16}\n", pass.name, pass.calls,
+                           pass.wall_seconds, pass.busy_seconds, busy > 0 ? 100 * pass.busy_seconds / busy : 0,
+                           pass.pairs > 0 ? fmt::format("{:.1f}", pass.pairs_per_second() / 1e6) : "");
+}
+
+void print_comparisons(std::ostream& out, const std::vector<io::Comparison>& comparisons) {
+    for (const io::Comparison& c : comparisons)
+        if (c.error)
+            out << fmt::format("{} against {}: RMS {:.4g} {} ({:.1f} % of the peak), {} points in [{:g}, {:g}] s\n",
+                               c.column, c.label, c.rms, c.unit, 100 * c.normalised, c.points, c.window[0],
+                               c.window[1]);
+}
+
+}  // namespace
+
+ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& out, std::ostream& err) {
+    const std::filesystem::path folder =
+        options.folder.empty() ? std::filesystem::path("results") / scene.name : options.folder;
+    tasks::Executor executor(options.threads);
+    std::optional<tasks::Trace> trace;
+    if (!options.trace.empty()) trace.emplace();
+
+    const std::unique_ptr<Model> model = make_model(scene);
+    Results results(scene, *model, folder);
+    std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
+    for (tasks::Task& task : results.tasks()) listing.push_back(std::move(task));
+    tasks::TaskGraph graph(std::move(listing), executor, trace ? &*trace : nullptr);
+
+    const InterruptGuard guard;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+    io::RunOutcome outcome = io::RunOutcome::finished;
+    std::string message;
+    std::optional<io::Progress> progress;
+    if (!options.quiet) progress.emplace(out, &out == &std::cout && io::Progress::is_terminal(STDOUT_FILENO), scene.end_time);
+    Clock& clock = model->clock;
+    try {
+        executor.execute([&] { start(*model, scene); });
+        results.write_history_row();
+        results.write_frame();
+        while (clock.time < clock.end * (1 - 1e-12)) {
+            if (interrupt_requested) {
+                outcome = io::RunOutcome::interrupted;
+                message = fmt::format("interrupted at t = {:.6g} s of {:.6g} s", clock.time, clock.end);
+                break;
+            }
+            graph.run();
+            if (progress)
+                progress->update({clock.time, clock.steps, clock.step, clock.limiter});
+        }
+    } catch (const tasks::TaskError& error) {
+        outcome = io::RunOutcome::failed;
+        try {
+            std::rethrow_exception(error.cause());
+        } catch (const tasks::SickParticle& sick) {
+            message = describe(*model, sick);
+        } catch (...) {
+            message = fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps);
+        }
+    } catch (const solid::ConvergenceError& error) {
+        outcome = io::RunOutcome::failed;
+        message = error.what();
+    }
+    if (progress) progress->finish();
+
+    RunFigures figures{.wall_seconds = seconds(), .threads = executor.threads(), .passes = passes_of(graph)};
+    if (outcome != io::RunOutcome::finished) {
+        results.write_history_row();
+        results.write_frame();
+    }
+    const auto comparisons = results.finish(outcome, message, figures);
+    if (trace) trace->write(options.trace.string());
+
+    if (!options.quiet) {
+        print_table(out, figures);
+        print_comparisons(out, comparisons);
+        out << fmt::format("{} steps in {:.2f} s on {} threads; results in {}\n", clock.steps, figures.wall_seconds,
+                           figures.threads, folder.string());
+    }
+    if (outcome == io::RunOutcome::failed) {
+        err << "aquagraph: " << message << "\nWhat was computed until then is in " << folder.string() << "\n";
+        return run_failed;
+    }
+    if (outcome == io::RunOutcome::interrupted) {
+        err << "aquagraph: " << message << "; results kept in " << folder.string() << "\n";
+        return interrupted;
+    }
+    return success;
+}
+
+}  // namespace aquagraph::engine

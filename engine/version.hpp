@@ -1,0 +1,7 @@
+#pragma once
+
+namespace aquagraph::engine {
+
+inline constexpr const char* version = AQUAGRAPH_VERSION;
+
+}  // namespace aquagraph::engine

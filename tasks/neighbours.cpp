@@ -1,0 +1,118 @@
+#include "tasks/neighbours.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+#include "tasks/parallel_loop.hpp"
+#include "tasks/resources.hpp"
+#include "tasks/statistics.hpp"
+
+namespace aquagraph::tasks {
+
+namespace {
+
+struct Reach {
+    double displacement2 = 0, speed2 = 0;
+};
+
+class NeighbourSearchTask {
+  public:
+    NeighbourSearchTask(fluid::Fluid<2>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+                        const Clock& clock)
+        : fluid_(fluid), walls_(walls), interface_(interface), clock_(clock) {}
+
+    void operator()() {
+        if (lists_hold()) return;
+        rebuild();
+        ++fluid_.rebuilds;
+        report_work(fluid_.particles.count);
+    }
+
+  private:
+    // Two particles, or a particle and the mirror image of another, come closer by at most twice the largest
+    // displacement of particles plus twice that of walls. The coming step is counted in at present speeds.
+    bool lists_hold() {
+        const auto& particles = fluid_.particles;
+        if (fluid_.rebuilds == 0) return false;
+        scratch_.resize(fluid_.blocks());
+        const Reach reach = reduce_blocks(
+            fluid_.blocks(), Reach{},
+            [&](std::size_t block) {
+                Reach r{largest_displacement_squared(particles, block), 0};
+                const auto lanes = fluid_.lanes(block);
+                for (std::size_t i = lanes.begin; i < lanes.end; ++i)
+                    r.speed2 = std::max(r.speed2, particles.v[0][i] * particles.v[0][i] + particles.v[1][i] * particles.v[1][i]);
+                return r;
+            },
+            [](const Reach& a, const Reach& b) {
+                return Reach{std::max(a.displacement2, b.displacement2), std::max(a.speed2, b.speed2)};
+            },
+            std::span<Reach>(scratch_));
+        double moved = std::sqrt(reach.displacement2) + clock_.step * std::sqrt(reach.speed2);
+        if (walls_) {
+            double wall2 = 0;
+            for (std::size_t k = 0; k < built_.size(); ++k)
+                wall2 = std::max(wall2, (walls_->panels.position[k] - built_[k]).squaredNorm());
+            moved += std::sqrt(wall2);
+        }
+        if (interface_) moved += clock_.step * interface_->surface.largest_speed();
+        return moved < 0.5 * fluid_.lists.skin;
+    }
+
+    void rebuild() {
+        auto& particles = fluid_.particles;
+        if (walls_) check_walls();
+        if (!fluid_.closed) fluid_.removed += remove_outside(particles, fluid_.domain);
+        fluid_.reorder.apply(particles, fluid_.order.sort(particles.x, particles.count, fluid_.spacing));
+        for (std::size_t block = 0; block < fluid_.blocks(); ++block) {
+            update_state(particles, fluid_.tait, fluid_.lanes(block));
+            const auto lanes = fluid_.lanes(block);
+            for (std::size_t i = lanes.begin; i < lanes.end; ++i)
+                for (std::size_t d = 0; d < 2; ++d) particles.x_built[d][i] = particles.x[d][i];
+        }
+        const fluid::PairFilter<2>* filter = nullptr;
+        if (walls_) {
+            if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
+            walls_->rebuild(particles, fluid_.spacing, fluid_.lists.reach(),
+                            {fluid_.flux.gravity[0], fluid_.flux.gravity[1]});
+            built_ = walls_->panels.position;
+            filter = &walls_->visibility;
+        }
+        fluid_.runge_kutta.resize(particles);
+        fluid_.search.build(particles, fluid_.lists, filter, parallel_loop);
+        if (interface_) interface_->load.rebuild(particles, fluid_.lists, *walls_);
+    }
+
+    // A particle deeper behind a wall than half a spacing would no longer be mirrored: it has passed through.
+    void check_walls() const {
+        const fluid::Escape escape = walls_->deepest(fluid_.particles);
+        if (escape.id < 0 || escape.depth < 0.5 * fluid_.spacing) return;
+        throw std::runtime_error("particle " + std::to_string(escape.id) + " has passed through wall '" +
+                                 walls_->panels.name(std::size_t(escape.panel)) + "' and is " +
+                                 std::to_string(escape.depth / fluid_.spacing) +
+                                 " spacings behind it; likely causes: a sound speed below ten times the fastest flow, "
+                                 "a CFL number too large, or a gap narrower than two particles");
+    }
+
+    fluid::Fluid<2>& fluid_;
+    fluid::GhostWalls* walls_;
+    coupling::Interface* interface_;
+    const Clock& clock_;
+    std::vector<Reach> scratch_;
+    std::vector<fluid::Vec2> built_;  // vertices of walls when the lists were built
+};
+
+}  // namespace
+
+Task neighbour_search(fluid::Fluid<2>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+                      const Clock& clock, const std::string& label) {
+    // Held by pointer: the graph copies bodies.
+    auto search = std::make_shared<NeighbourSearchTask>(fluid, walls, interface, clock);
+    return {.name = "neighbour search (" + label + ")",
+            .reads = {resource::clock_step, resource::interface_motion},
+            .writes = {resource::fluid, resource::walls},
+            .body = [search] { (*search)(); }};
+}
+
+}  // namespace aquagraph::tasks

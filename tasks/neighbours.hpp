@@ -1,0 +1,17 @@
+// The neighbour search as a task: looks whether the lists still hold for the coming step and rebuilds them if not.
+#pragma once
+#include "physics/clock.hpp"
+#include "physics/coupling/interface.hpp"
+#include "physics/fluid/fluid.hpp"
+#include "physics/fluid/walls/ghosts.hpp"
+#include "tasks/task.hpp"
+
+namespace aquagraph::tasks {
+
+// walls: null where the scene has none; interface: null without a solid. A rebuild takes out particles that have left
+// an open domain, re-sorts the others, mirrors them anew and renews the lists and everything that is indexed like them.
+// Throws std::runtime_error if a particle has passed through a wall.
+Task neighbour_search(fluid::Fluid<2>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+                      const Clock& clock, const std::string& label);
+
+}  // namespace aquagraph::tasks

@@ -1,0 +1,18 @@
+// Walls of ghost particles as tasks, refreshed at every substep.
+#pragma once
+#include "physics/clock.hpp"
+#include "physics/coupling/interface.hpp"
+#include "physics/fluid/fluid.hpp"
+#include "physics/fluid/walls/ghosts.hpp"
+#include "tasks/task.hpp"
+
+namespace aquagraph::tasks {
+
+// Moves the wet panels to `fraction` of the present step (0 … 1), extrapolated from the last exchange.
+Task wall_motion(fluid::GhostWalls& walls, const coupling::Interface& interface, const Clock& clock, double fraction,
+                 const std::string& label);
+// Places the ghosts and gives them their parents' state.
+Task ghost_state(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label);
+Task ghost_gradients(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label);
+
+}  // namespace aquagraph::tasks
