@@ -119,6 +119,46 @@ TEST_CASE("the hydrostatic plate under water and under its own weight") {
     CHECK(heavy.displacements()[2 * middle + 1] == doctest::Approx(-0.445e-5).epsilon(0.005));
 }
 
+TEST_CASE("Turek & Hron's flag in gravity: CSM1 at rest, CSM2 stiffer, CSM3 swinging") {
+    // Benchmark of Turek & Hron (2006): the flag behind the cylinder, root on its arc, Saint Venant–Kirchhoff, plane
+    // strain.
+    const Mesh mesh = mapped(box_mesh({0, 0}, {1, 1}, 35, 2), [](std::array<double, 2> X) {
+        const double y = 0.19 + 0.02 * X[1], root = 0.2 + std::sqrt(0.05 * 0.05 - (y - 0.2) * (y - 0.2));
+        return std::array<double, 2>{root + X[0] * (0.6 - root), y};
+    });
+    Options options;
+    options.youngs_modulus = 1.4e6;
+    options.poissons_ratio = 0.4;
+    options.density = 1000;
+    options.gravity = {0, -2};
+    options.alpha = 0;
+    options.clamps = {{"left", {true, true}}};
+    const std::size_t tip = 2 * nearest_node(mesh, 0.6, 0.2);
+    Solver first(mesh, options);
+    first.solve_static(no_load(mesh), serial_loop);
+    CHECK(first.displacements()[tip] == doctest::Approx(-7.188e-3).epsilon(0.003));
+    CHECK(first.displacements()[tip + 1] == doctest::Approx(-66.10e-3).epsilon(0.003));
+
+    Solver third(mesh, options);
+    double lowest = 0, highest = -1, time_of_lowest = 0;
+    constexpr double dt = 0.005;
+    for (int k = 1; k <= 200; ++k) {
+        third.advance(dt, no_load(mesh), serial_loop);
+        const double y = third.displacements()[tip + 1];
+        if (y < lowest) lowest = y, time_of_lowest = k * dt;
+        if (k > 100) highest = std::max(highest, y);
+    }
+    CHECK(lowest == doctest::Approx(-(63.78e-3 + 65.34e-3)).epsilon(0.01));
+    CHECK(std::abs(highest) < 2e-3);  // it comes back to where it started
+    CHECK(time_of_lowest == doctest::Approx(0.5 / 1.094).epsilon(0.02));
+
+    options.youngs_modulus = 5.6e6;
+    Solver second(mesh, options);
+    second.solve_static(no_load(mesh), serial_loop);
+    CHECK(second.displacements()[tip] == doctest::Approx(-0.4690e-3).epsilon(0.003));
+    CHECK(second.displacements()[tip + 1] == doctest::Approx(-16.974e-3).epsilon(0.003));
+}
+
 TEST_CASE("a thick rubber tube under inner pressure is the closed form for an incompressible law") {
     // Plane strain, p = µ/2 [ln(Ro²/ro²) - ln(Ri²/ri²) + A (1/ri² - 1/ro²)] with µ/2 = C10, r² = R² + A. The pressure
     // follows the wall: its nodal forces are found for the deformed shape, again until nothing changes.
