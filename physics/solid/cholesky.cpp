@@ -79,8 +79,4 @@ void Cholesky::solve(std::span<const double> b, std::span<double> x) {
     std::copy(solution, solution + b.size(), x.begin());
 }
 
-std::size_t Cholesky::factor_nonzeros() const {
-    return static_cast<std::size_t>(implementation_->common.lnz);
-}
-
 }  // namespace aquagraph::solid

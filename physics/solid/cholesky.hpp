@@ -23,8 +23,6 @@ class Cholesky {
     // Solves A x = b with the last factorisation. x may be b.
     void solve(std::span<const double> b, std::span<double> x);
 
-    std::size_t factor_nonzeros() const;
-
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;

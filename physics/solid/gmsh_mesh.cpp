@@ -220,6 +220,10 @@ void read_elements(Lines& lines, Contents& contents) {
     if (contents.quadrilaterals.empty()) lines.fail("there is no quadrilateral; put the surface in a physical group");
 }
 
+[[noreturn]] void fail(const std::string& source, const std::string& message) {
+    throw MeshError(source + ": " + message);
+}
+
 // Straight mid-side nodes for 4-node quadrilaterals, one for each edge.
 void add_mid_side_nodes(Contents& contents) {
     std::map<std::pair<NodeIndex, NodeIndex>, NodeIndex> middle;
@@ -247,8 +251,8 @@ void drop_unused_nodes(Contents& contents, const std::string& source) {
     NodeIndex next = 0;
     for (std::size_t a = 0; a < used.size(); ++a) {
         if (!used[a] && !contents.on_unnamed_point[a])
-            throw MeshError(source + ": node " + std::to_string(contents.node_tags[a]) +
-                            " is dangling: it belongs to no quadrilateral");
+            fail(source,
+                 "node " + std::to_string(contents.node_tags[a]) + " is dangling: it belongs to no quadrilateral");
         if (!used[a]) continue;
         contents.nodes[static_cast<std::size_t>(next)] = contents.nodes[a];
         renumbered[a] = next++;
@@ -266,7 +270,7 @@ Mesh build(Contents& contents, const std::string& source) {
     Mesh mesh{contents.nodes, contents.quadrilaterals, {}, {}};
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
         if (const std::string fault = element_fault(mesh, e); !fault.empty())
-            throw MeshError(source + ": element " + std::to_string(contents.tags[e]) + " " + fault);
+            fail(source, "element " + std::to_string(contents.tags[e]) + " " + fault);
 
     std::map<std::string, std::set<NodeIndex>> sets;
     const auto groups = [&](int dimension, int entity) -> std::vector<std::string> {
@@ -291,8 +295,8 @@ Mesh build(Contents& contents, const std::string& source) {
         for (const std::string& name : groups(1, line.entity)) {
             const auto found = edges.find(std::minmax(line.first, line.second));
             if (found == edges.end())
-                throw MeshError(source + ": line element " + std::to_string(line.tag) + " of '" + name +
-                                "' is not an edge of a quadrilateral");
+                fail(source, "line element " + std::to_string(line.tag) + " of '" + name +
+                                 "' is not an edge of a quadrilateral");
             const auto& [edge, elements] = found->second;
             sets[name].insert(edge.begin(), edge.end());
             if (elements == 1) surfaces[name].push_back(edge);

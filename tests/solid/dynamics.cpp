@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "physics/solid/newmark.hpp"
 #include "tests/solid/fixtures.hpp"
