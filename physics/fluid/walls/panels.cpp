@@ -99,14 +99,14 @@ std::vector<Corner> find_corners(const Panels& panels, double touching) {
         corner.away[1] = panels.tangent[l];
         add(corner);
     });
-    // A vertex of k near the inside of another panel m.
+    // A vertex of k near the inside of a panel m of another wall; a body does not touch itself.
     for (std::size_t k = 0; k < panels.panels.size(); ++k) {
         for (const bool at_end : {false, true}) {
             const int vertex = at_end ? panels.panels[k].second : panels.panels[k].first;
             const Vec2& x = panels.position[std::size_t(vertex)];
             const Vec2 away = at_end ? Vec2(-panels.tangent[k]) : panels.tangent[k];
             for (std::size_t m = 0; m < panels.panels.size(); ++m) {
-                if (m == k) continue;
+                if (panels.panels[m].wall == panels.panels[k].wall) continue;
                 const Vec2 from = x - panels.start(m);
                 const double distance = from.dot(panels.normal[m]), s = from.dot(panels.tangent[m]);
                 if (std::fabs(distance) > touching || s <= 1e-6 * panels.length[m] ||
