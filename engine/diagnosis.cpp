@@ -45,9 +45,10 @@ std::string describe(const Model& model, const tasks::SickParticle& sick) {
         case fluid::Ailment::not_finite:
         case fluid::Ailment::none:
             if (fastest > 0.3 * fluid.tait.sound_speed)
-                text += fmt::format("the flow reaches {:.3g} m/s, Mach {:.2f}: raise sound_speed to ten times the "
-                                    "fastest flow",
-                                    fastest, fastest / fluid.tait.sound_speed);
+                text += fmt::format(
+                    "the flow reaches {:.3g} m/s, Mach {:.2f}: raise sound_speed to ten times the "
+                    "fastest flow",
+                    fastest, fastest / fluid.tait.sound_speed);
             else if (model.solid)
                 text += "the coupling is unstable or the step too long: make αs more negative, or lower cfl or ratio";
             else

@@ -7,7 +7,7 @@
 //       wall motion -> ghosts                  boundary data are refreshed at every substep, lists are not
 //       gradients -> ghost gradients           a ghost's gradient is its parent's, mirrored: hence after it
 //       fluxes -> Runge–Kutta stage
-//     clock, examine
+//     wall contact, clock, examine
 //   wall motion, ghosts, gradients, loads      the load at the end of the cycle, from the state reached there
 //   FE Newton solve                            CPS reads the loads of the last exchange: nothing above holds it up, and
 //                                              it runs beside the fluid. CSS reads the loads just computed: one edge
@@ -54,6 +54,7 @@ class Listing {
             add(tasks::runge_kutta_stage(fluid, model_.clock, stage));
         }
         group(label);
+        if (walls) add(tasks::wall_contact(fluid, *walls, label));
         add(tasks::advance_clock(model_.clock, label));
         add(tasks::examine(fluid, label));
     }
@@ -61,8 +62,7 @@ class Listing {
     // Walls and ghosts at `fraction` of the present step.
     void boundary(double fraction, const std::string& label) {
         if (!model_.walls) return;
-        if (model_.interface)
-            add(tasks::wall_motion(*model_.walls, *model_.interface, model_.clock, fraction, label));
+        if (model_.interface) add(tasks::wall_motion(*model_.walls, *model_.interface, model_.clock, fraction, label));
         add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
     }
 
@@ -95,8 +95,7 @@ std::vector<Task> coupling_cycle(Model& model, const io::CouplingScene& coupling
     for (int step = 1; step <= p; ++step) {
         const std::string label = "step " + std::to_string(step);
         listing.group(label);
-        if (!cps)
-            listing.add(tasks::time_step(*model.fluid, model.clock, {.first_of_cycle = step == 1}, label));
+        if (!cps) listing.add(tasks::time_step(*model.fluid, model.clock, {.first_of_cycle = step == 1}, label));
         listing.fluid_step(label);
     }
     if (!coupled) return listing.take();

@@ -55,8 +55,7 @@ solid::Mesh make_mesh(const io::Scene& scene) {
     try {
         return solid::read_gmsh(file, from.mesh.string());
     } catch (const solid::MeshError& error) {
-        throw io::scene_error(scene, "solid.mesh", error.what(),
-                              "mend the mesh, or mesh a box with [solid.box]");
+        throw io::scene_error(scene, "solid.mesh", error.what(), "mend the mesh, or mesh a box with [solid.box]");
     }
 }
 
@@ -65,8 +64,8 @@ solid::Solver make_solid(const io::Scene& scene) {
     solid::Options options;
     options.law = from.law == io::MaterialLaw::neo_hookean ? solid::MaterialLaw::neo_hookean
                                                            : solid::MaterialLaw::saint_venant_kirchhoff;
-    options.plane = from.plane == io::PlaneCondition::stress ? solid::PlaneCondition::stress
-                                                             : solid::PlaneCondition::strain;
+    options.plane =
+        from.plane == io::PlaneCondition::stress ? solid::PlaneCondition::stress : solid::PlaneCondition::strain;
     options.youngs_modulus = from.youngs_modulus;
     options.poissons_ratio = from.poissons_ratio;
     options.density = from.density;
@@ -122,8 +121,8 @@ std::unique_ptr<Model> make_model(const io::Scene& scene) {
         refuse_water_inside(scene, *model);
         coupling::Interface& interface = model->interface.emplace();
         try {
-            interface.surface = coupling::WetSurface(model->solid->mesh(), scene.solid->wet, scene.solid->name,
-                                                     model->walls->panels);
+            interface.surface =
+                coupling::WetSurface(model->solid->mesh(), scene.solid->wet, scene.solid->name, model->walls->panels);
         } catch (const std::invalid_argument& error) {
             throw io::scene_error(scene, "solid.wet", error.what(), "name surfaces of the mesh");
         }

@@ -40,7 +40,9 @@ std::vector<io::HistoryColumn> history_columns(const io::Scene& scene, const Mod
 }
 
 // The next multiple of `interval` after t; rounding must not give t itself again.
-double next_due(double t, double interval) { return (std::floor(t / interval * (1 + 1e-12)) + 1) * interval; }
+double next_due(double t, double interval) {
+    return (std::floor(t / interval * (1 + 1e-12)) + 1) * interval;
+}
 
 }  // namespace
 
@@ -63,10 +65,16 @@ std::vector<tasks::Task> Results::tasks() {
     namespace resource = tasks::resource;
     const std::vector<std::string> reads = {resource::clock, resource::fluid, resource::interface_loads,
                                             resource::solid_state};
-    return {{.name = "history", .reads = reads, .writes = {tasks::resource::results},
-             .body = [this] { history_if_due(); }, .group = "results"},
-            {.name = "frames", .reads = reads, .writes = {tasks::resource::results},
-             .body = [this] { frame_if_due(); }, .group = "results"}};
+    return {{.name = "history",
+             .reads = reads,
+             .writes = {tasks::resource::results},
+             .body = [this] { history_if_due(); },
+             .group = "results"},
+            {.name = "frames",
+             .reads = reads,
+             .writes = {tasks::resource::results},
+             .body = [this] { frame_if_due(); },
+             .group = "results"}};
 }
 
 void Results::history_if_due() {
@@ -177,7 +185,8 @@ void Results::write_solid_frame(int number) {
     std::vector<double> stress(solver.mesh().elements.size());
     solver.element_stress(stress);
     std::vector<std::int32_t> connectivity;
-    for (const auto& element : solver.mesh().elements) connectivity.insert(connectivity.end(), element.begin(), element.end());
+    for (const auto& element : solver.mesh().elements)
+        connectivity.insert(connectivity.end(), element.begin(), element.end());
     const auto array = [](const std::vector<double>& v) { return io::VtkValues(std::span<const double>(v)); };
     io::VtkFrame frame;
     frame.x = x;
@@ -218,6 +227,7 @@ std::vector<io::Comparison> Results::finish(io::RunOutcome outcome, const std::s
     if (model_.fluid) {
         summary["particles"] = model_.fluid->particles.count;
         summary["particles_removed"] = model_.fluid->removed;
+        summary["particles_held_back_at_walls"] = model_.fluid->held_back;
         summary["neighbour_list_rebuilds"] = model_.fluid->rebuilds;
         summary["bytes_per_particle"] = bytes_per_particle(*model_.fluid);
     }
@@ -231,9 +241,8 @@ std::vector<io::Comparison> Results::finish(io::RunOutcome outcome, const std::s
     }
     io::Report report;
     for (const PassTime& pass : figures.passes) {
-        nlohmann::json entry = {{"calls", pass.calls},
-                                {"wall_seconds", pass.wall_seconds},
-                                {"thread_seconds", pass.busy_seconds}};
+        nlohmann::json entry = {
+            {"calls", pass.calls}, {"wall_seconds", pass.wall_seconds}, {"thread_seconds", pass.busy_seconds}};
         if (pass.pairs > 0) entry["pairs_per_second_per_core"] = pass.pairs_per_second();
         summary["tasks"][pass.name] = entry;
         report.tasks.push_back({pass.name, pass.family, pass.wall_seconds, pass.calls, pass.pairs});
@@ -250,14 +259,13 @@ std::vector<io::Comparison> Results::finish(io::RunOutcome outcome, const std::s
     report.message = message;
     report.reached_time = model_.clock.time;
     report.wall_seconds = figures.wall_seconds;
-    report.key_numbers = {{"Wall-clock time", text(figures.wall_seconds, 4), "s",
-                           "on " + std::to_string(figures.threads) + " threads"},
-                          {"Fluid steps", std::to_string(model_.clock.steps), "", ""}};
+    report.key_numbers = {
+        {"Wall-clock time", text(figures.wall_seconds, 4), "s", "on " + std::to_string(figures.threads) + " threads"},
+        {"Fluid steps", std::to_string(model_.clock.steps), "", ""}};
     if (model_.fluid)
-        report.key_numbers.push_back({"Particles", std::to_string(model_.fluid->particles.count), "",
-                                      model_.fluid->removed == 0
-                                          ? ""
-                                          : std::to_string(model_.fluid->removed) + " have left the domain"});
+        report.key_numbers.push_back(
+            {"Particles", std::to_string(model_.fluid->particles.count), "",
+             model_.fluid->removed == 0 ? "" : std::to_string(model_.fluid->removed) + " have left the domain"});
     if (model_.solid)
         report.key_numbers.push_back(
             {"Elements", std::to_string(model_.solid->mesh().elements.size()), "",

@@ -28,10 +28,11 @@ class InterruptGuard {
   public:
     InterruptGuard() {
         interrupt_requested = 0;
-        for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int number) {
-            interrupt_requested = 1;
-            std::signal(number, SIG_DFL);
-        });
+        for (const int signal : {SIGINT, SIGTERM})
+            std::signal(signal, [](int number) {
+                interrupt_requested = 1;
+                std::signal(number, SIG_DFL);
+            });
     }
     ~InterruptGuard() {
         for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
@@ -40,7 +41,9 @@ class InterruptGuard {
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 };
 
-std::string pass_name(const std::string& task) { return task.substr(0, task.find(" (")); }
+std::string pass_name(const std::string& task) {
+    return task.substr(0, task.find(" ("));
+}
 
 std::string family_of(const std::string& pass) {
     if (pass == "FE Newton solve") return "solid";
@@ -104,11 +107,14 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
 
     const InterruptGuard guard;
     const auto begin = std::chrono::steady_clock::now();
-    const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
     io::RunOutcome outcome = io::RunOutcome::finished;
     std::string message;
     std::optional<io::Progress> progress;
-    if (!options.quiet) progress.emplace(out, &out == &std::cout && io::Progress::is_terminal(STDOUT_FILENO), scene.end_time);
+    if (!options.quiet)
+        progress.emplace(out, &out == &std::cout && io::Progress::is_terminal(STDOUT_FILENO), scene.end_time);
     Clock& clock = model->clock;
     try {
         executor.execute([&] { start(*model, scene); });
@@ -121,8 +127,7 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
                 break;
             }
             graph.run();
-            if (progress)
-                progress->update({clock.time, clock.steps, clock.step, clock.limiter});
+            if (progress) progress->update({clock.time, clock.steps, clock.step, clock.limiter});
         }
     } catch (const tasks::TaskError& error) {
         outcome = io::RunOutcome::failed;

@@ -4,13 +4,13 @@
 namespace aquagraph {
 
 struct Clock {
-    double time = 0;      // of the fluid [s]
-    double end = 0;       // of the run [s]
-    double step = 0;      // Δt of the present fluid step [s]
-    double elapsed = 0;   // since the last exchange between fluid and solid [s]
-    double cycle = 0;     // length of the present coupling cycle [s]: known beforehand with CPS, summed up with CSS
-    long steps = 0;       // fluid steps done
-    long cycles = 0;      // coupling cycles done
+    double time = 0;     // of the fluid [s]
+    double end = 0;      // of the run [s]
+    double step = 0;     // Δt of the present fluid step [s]
+    double elapsed = 0;  // since the last exchange between fluid and solid [s]
+    double cycle = 0;    // length of the present coupling cycle [s]: known beforehand with CPS, summed up with CSS
+    long steps = 0;      // fluid steps done
+    long cycles = 0;     // coupling cycles done
     const char* limiter = "";  // what limits the step
 };
 

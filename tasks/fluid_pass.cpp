@@ -28,8 +28,8 @@ Task fluxes(fluid::Fluid<D>& fluid, const std::string& label) {
             .writes = {resource::fluid_rates},
             .body = [&fluid] {
                 for_each_block(fluid.blocks(), [&](std::size_t block) {
-                    compute_fluxes(fluid.particles, fluid.lists, fluid.kernel, fluid.flux,
-                                   fluid.tait.reference_density, fluid.lanes(block));
+                    compute_fluxes(fluid.particles, fluid.lists, fluid.kernel, fluid.flux, fluid.tait.reference_density,
+                                   fluid.lanes(block));
                     report_work(fluid.lists.blocks[block].pairs);
                 });
             }};

@@ -42,7 +42,8 @@ class NeighbourSearchTask {
                 Reach r{largest_displacement_squared(particles, block), 0};
                 const auto lanes = fluid_.lanes(block);
                 for (std::size_t i = lanes.begin; i < lanes.end; ++i)
-                    r.speed2 = std::max(r.speed2, particles.v[0][i] * particles.v[0][i] + particles.v[1][i] * particles.v[1][i]);
+                    r.speed2 = std::max(r.speed2,
+                                        particles.v[0][i] * particles.v[0][i] + particles.v[1][i] * particles.v[1][i]);
                 return r;
             },
             [](const Reach& a, const Reach& b) {

@@ -3,14 +3,14 @@
 
 namespace aquagraph::tasks::resource {
 
-inline constexpr const char* clock = "clock";                        // both of the following
-inline constexpr const char* clock_step = "clock.step";              // time, Δt, time since the last exchange
-inline constexpr const char* clock_cycle = "clock.cycle";            // length of the coupling cycle
-inline constexpr const char* fluid = "fluid";                        // all of the following fluid.*
-inline constexpr const char* fluid_lists = "fluid.lists";            // order of particles, ghosts, neighbour lists
-inline constexpr const char* fluid_state = "fluid.state";            // x, v, ρ, p, Z, ω of fluid particles
-inline constexpr const char* fluid_ghosts = "fluid.ghosts";          // the same of ghosts
-inline constexpr const char* fluid_gradients = "fluid.gradients";    // of fluid particles
+inline constexpr const char* clock = "clock";                      // both of the following
+inline constexpr const char* clock_step = "clock.step";            // time, Δt, time since the last exchange
+inline constexpr const char* clock_cycle = "clock.cycle";          // length of the coupling cycle
+inline constexpr const char* fluid = "fluid";                      // all of the following fluid.*
+inline constexpr const char* fluid_lists = "fluid.lists";          // order of particles, ghosts, neighbour lists
+inline constexpr const char* fluid_state = "fluid.state";          // x, v, ρ, p, Z, ω of fluid particles
+inline constexpr const char* fluid_ghosts = "fluid.ghosts";        // the same of ghosts
+inline constexpr const char* fluid_gradients = "fluid.gradients";  // of fluid particles
 inline constexpr const char* ghost_gradients = "fluid.ghost_gradients";
 inline constexpr const char* fluid_rates = "fluid.rates";            // dv/dt, dρ/dt
 inline constexpr const char* walls = "walls";                        // places and velocities of panels
@@ -18,6 +18,6 @@ inline constexpr const char* interface_motion = "interface.motion";  // wet node
 inline constexpr const char* interface_loads = "interface.loads";    // what the fluid does to the solid now
 inline constexpr const char* solid_loads = "solid.loads";            // what it did at the last exchange
 inline constexpr const char* solid_state = "solid.state";
-inline constexpr const char* results = "results";                    // files
+inline constexpr const char* results = "results";  // files
 
 }  // namespace aquagraph::tasks::resource

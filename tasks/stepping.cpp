@@ -48,17 +48,19 @@ Task examine(fluid::Fluid<D>& fluid, const std::string& label) {
             .body = [&fluid, found] {
                 found->resize(fluid.blocks());
                 for_each_block(fluid.blocks(), [&](std::size_t block) {
-                    (*found)[block] = examine(fluid.particles, fluid.tait.reference_density, fluid.domain,
-                                              fluid.closed, fluid.lanes(block));
+                    (*found)[block] = examine(fluid.particles, fluid.tait.reference_density, fluid.domain, fluid.closed,
+                                              fluid.lanes(block));
                 });
                 for (const fluid::Diagnosis& diagnosis : *found) {
                     switch (diagnosis.ailment) {
-                        case fluid::Ailment::none: break;
+                        case fluid::Ailment::none:
+                            break;
                         case fluid::Ailment::not_finite:
                             throw SickParticle(diagnosis, "a particle's state is not a number");
                         case fluid::Ailment::no_volume:
-                            throw SickParticle(diagnosis, "a particle's density has fallen below a tenth of ρ0: its "
-                                                          "volume turns negative");
+                            throw SickParticle(diagnosis,
+                                               "a particle's density has fallen below a tenth of ρ0: its "
+                                               "volume turns negative");
                         case fluid::Ailment::left_domain:
                             throw SickParticle(diagnosis, "a particle has left the closed domain");
                     }

@@ -6,7 +6,9 @@
 namespace aquagraph::tasks {
 
 namespace {
-fluid::Vec2 gravity_of(const fluid::Fluid<2>& fluid) { return {fluid.flux.gravity[0], fluid.flux.gravity[1]}; }
+fluid::Vec2 gravity_of(const fluid::Fluid<2>& fluid) {
+    return {fluid.flux.gravity[0], fluid.flux.gravity[1]};
+}
 }  // namespace
 
 Task wall_motion(fluid::GhostWalls& walls, const coupling::Interface& interface, const Clock& clock, double fraction,
@@ -29,6 +31,13 @@ Task ghost_state(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const s
                     walls.update_state(fluid.particles, gravity_of(fluid), block);
                 });
             }};
+}
+
+Task wall_contact(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label) {
+    return {.name = "wall contact (" + label + ")",
+            .reads = {resource::walls, resource::fluid_lists},
+            .writes = {resource::fluid_state},
+            .body = [&fluid, &walls] { fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing); }};
 }
 
 Task ghost_gradients(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label) {

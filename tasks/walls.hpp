@@ -13,6 +13,8 @@ Task wall_motion(fluid::GhostWalls& walls, const coupling::Interface& interface,
                  const std::string& label);
 // Places the ghosts and gives them their parents' state.
 Task ghost_state(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label);
+// After the last stage: stops lone particles at the walls (GhostWalls::hold_back).
+Task wall_contact(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label);
 Task ghost_gradients(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label);
 
 }  // namespace aquagraph::tasks

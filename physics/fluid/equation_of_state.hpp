@@ -1,7 +1,8 @@
 // Tait's equation of state (thesis (2.9)), in terms of the deviation δ = ρ - ρ0 so that a pressure of a few Pa survives
 // rounding at c0 = 1500 m/s:
 //     p = ρ0 c0²/γ [(1 + δ/ρ0)^γ - 1]
-// and the sound speed that is its derivative, c = c0 (ρ/ρ0)^((γ-1)/2). ((2.63) of the thesis drops the background term.)
+// and the sound speed that is its derivative, c = c0 (ρ/ρ0)^((γ-1)/2). ((2.63) of the thesis drops the background
+// term.)
 #pragma once
 #include <cmath>
 

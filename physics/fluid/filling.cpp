@@ -8,7 +8,9 @@ namespace aquagraph::fluid {
 
 namespace {
 // Cells along one edge; an edge that is a whole number of cells but for rounding counts whole.
-std::size_t cells(double length, double spacing) { return std::size_t(std::floor(length / spacing * (1 + 1e-9) + 1e-9)); }
+std::size_t cells(double length, double spacing) {
+    return std::size_t(std::floor(length / spacing * (1 + 1e-9) + 1e-9));
+}
 }  // namespace
 
 double hydrostatic_deviation(const Tait& tait, double gravity, double depth) {

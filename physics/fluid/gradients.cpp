@@ -25,9 +25,8 @@ template <>
 double invert_moment<3>(double (&m)[6], double threshold) {
     Eigen::Matrix3d a;
     a << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
-    const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
-                                .computeDirect(a, Eigen::EigenvaluesOnly)
-                                .eigenvalues()[0];
+    const double smallest =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(a, Eigen::EigenvaluesOnly).eigenvalues()[0];
     if (smallest > threshold) {
         const Eigen::Matrix3d b = a.inverse();
         m[0] = b(0, 0);
@@ -90,7 +89,8 @@ struct GradientPass {
         const double u = std::max(0.0, 1 - std::sqrt(r2) * inverse_radius);
         const double w = slope_factor * u * u * u * volume[j] * seen;  // ∇W_ij ω_j = w (x_j - x_i)
         const double dp = (p[j] - i.p) * w;
-        // Flat loops with constant trip counts: GCC does not unroll a triangular nest early enough to vectorise the lanes.
+        // Flat loops with constant trip counts: GCC does not unroll a triangular nest early enough to vectorise the
+        // lanes.
         for (int k = 0; k < moments; ++k) sum.moment[k][l] += w * dx[row<D>[k]] * dx[column<D>[k]];
         for (int a = 0; a < D; ++a) sum.p[a][l] += dp * dx[a];
         for (int e = 0; e < D; ++e) {
@@ -108,7 +108,7 @@ struct GradientPass {
         double B[D][D];
         for (int a = 0, k = 0; a < D; ++a)
             for (int c = a; c < D; ++c, ++k) B[a][c] = B[c][a] = full ? b[k] : 0.0;
-        const auto apply = [&](const double (&raw)[D][W], auto&& out) {
+        const auto apply = [&](const double(&raw)[D][W], auto&& out) {
             double g[D];
             for (int a = 0; a < D; ++a) g[a] = add_lanes(raw[a]);
             for (int a = 0; a < D; ++a) {
@@ -125,8 +125,7 @@ struct GradientPass {
 }  // namespace
 
 template <int D>
-void compute_gradients(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
-                       LaneRange lanes) {
+void compute_gradients(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel, LaneRange lanes) {
     GradientPass<D> pass;
     pass.p = s.p.data();
     pass.volume = s.volume.data();

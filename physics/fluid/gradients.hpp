@@ -10,7 +10,8 @@ namespace aquagraph::fluid {
 
 inline constexpr double fullness_to_reconstruct = 0.2;
 
-// Writes grad_p, grad_v and fullness of these fluid particles (of one block). Reads x, v, p, volume of fluid and ghosts.
+// Writes grad_p, grad_v and fullness of these fluid particles (of one block). Reads x, v, p, volume of fluid and
+// ghosts.
 template <int D>
 void compute_gradients(Particles<D>& particles, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
                        LaneRange lanes);
@@ -26,6 +27,5 @@ double invert_moment<3>(double (&m)[6], double threshold);
 
 extern template void compute_gradients(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&, LaneRange);
 extern template void compute_gradients(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&, LaneRange);
-
 
 }  // namespace aquagraph::fluid

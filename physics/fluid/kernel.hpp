@@ -1,6 +1,7 @@
 // Wendland's C2 kernel on the support radius R (thesis (2.26)), q = r/R:
 //     W = β ½ (1-q)⁴ (1+4q),   W' = -10 β q (1-q)³ / R,   β = 14/(πR²) in 2D, 21/(πR³) in 3D.
-// Pair loops use slope(q) = -W'/r = 10 β (1-q)³ / R², which is positive and regular at r = 0: ∇W_ij = slope (x_j - x_i).
+// Pair loops use slope(q) = -W'/r = 10 β (1-q)³ / R², which is positive and regular at r = 0: ∇W_ij = slope (x_j -
+// x_i).
 #pragma once
 #include <algorithm>
 #include <numbers>

@@ -177,8 +177,7 @@ void NeighbourSearch<D>::build_block(const Particles<D>& particles, NeighbourLis
                     in_support &= ~(1u << (i - first));
                 }
                 if (!in_reach) continue;
-                const unsigned seen =
-                    filtered ? filter->lanes_seen(i, candidate, std::uint8_t(in_reach)) : in_reach;
+                const unsigned seen = filtered ? filter->lanes_seen(i, candidate, std::uint8_t(in_reach)) : in_reach;
                 pairs += std::uint64_t(__builtin_popcount(in_support & seen));
                 if (seen == in_reach) {
                     out.open.push_back(candidate);

@@ -1,8 +1,8 @@
 // Which clusters each particle must visit.
 //
 // Lists hold clusters of W lanes, not particles (physics/fluid/particles.hpp): a pair loop computes all W pairs of an
-// entry, and lanes outside the support contribute zero. They reach R + skin, so that they stay valid until some particle
-// or wall has moved half the skin. An entry is "masked" where a wall hides some of its lanes from the particle
+// entry, and lanes outside the support contribute zero. They reach R + skin, so that they stay valid until some
+// particle or wall has moved half the skin. An entry is "masked" where a wall hides some of its lanes from the particle
 // (walls/visibility.hpp); the others, nearly all, are "open".
 //
 // The order of particles is refreshed together with the lists: columns of about sqrt(W) Δx, each sorted along the last
@@ -23,11 +23,11 @@ struct NeighbourBlock {
     struct Entries {
         std::uint32_t open_end, masked_end;  // where this particle's entries end in `open` and `masked`
     };
-    std::vector<Entries> particle;           // one per lane of the block, plus a leading {0, 0}
-    std::vector<std::uint32_t> open;         // clusters all of whose lanes may be seen
-    std::vector<std::uint32_t> masked;       // clusters with hidden lanes …
-    std::vector<std::uint8_t> mask;          // … and which lanes are seen
-    std::uint64_t pairs = 0;                 // pairs closer than R when the lists were built
+    std::vector<Entries> particle;      // one per lane of the block, plus a leading {0, 0}
+    std::vector<std::uint32_t> open;    // clusters all of whose lanes may be seen
+    std::vector<std::uint32_t> masked;  // clusters with hidden lanes …
+    std::vector<std::uint8_t> mask;     // … and which lanes are seen
+    std::uint64_t pairs = 0;            // pairs closer than R when the lists were built
 };
 
 template <int D>
@@ -90,7 +90,7 @@ class NeighbourSearch {
     std::array<double, D> origin_{};
     double inverse_cell_ = 0;
     Cell cells_{};
-    std::vector<std::uint32_t> cell_start_;      // CSR: clusters with a lane in each cell
+    std::vector<std::uint32_t> cell_start_;  // CSR: clusters with a lane in each cell
     std::vector<std::uint32_t> cell_clusters_;
 };
 

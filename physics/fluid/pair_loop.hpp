@@ -3,8 +3,8 @@
 // A pass is a struct with
 //     Own   what it needs of particle i, loaded once:          Own load(i)
 //     Sum   W lanes of each accumulated quantity, all zero
-//     pair(own, j, seen, sum, lane)   one pair, plain arithmetic without branches; seen is 1 or, where a wall hides j, 0
-//     store(i, own, sum)
+//     pair(own, j, seen, sum, lane)   one pair, plain arithmetic without branches; seen is 1 or, where a wall hides j,
+//     0 store(i, own, sum)
 // The lane loop is vectorised by `omp simd`. GCC gives up as soon as pair() is not inlined or writes to memory that it
 // cannot prove private, so `aquagraph run` prints pairs/s of every pass: a fall to a quarter is a bug.
 #pragma once

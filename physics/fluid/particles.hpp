@@ -16,8 +16,8 @@
 
 namespace aquagraph::fluid {
 
-inline constexpr std::size_t W = 8;                     // lanes of a cluster: one AVX-512 register of doubles
-inline constexpr std::size_t clusters_per_block = 16;   // a block of work costs about 100k cycles in a flux pass
+inline constexpr std::size_t W = 8;                    // lanes of a cluster: one AVX-512 register of doubles
+inline constexpr std::size_t clusters_per_block = 16;  // a block of work costs about 100k cycles in a flux pass
 
 using Scalars = AlignedVector<double>;
 template <int D>
@@ -27,8 +27,8 @@ using Tensors = std::array<Vectors<D>, D>;  // T[a][b] = ∂_b φ_a
 
 template <int D>
 struct Particles {
-    std::size_t count = 0;           // fluid particles
-    std::size_t ghost_count = 0;     // mirrored particles behind walls
+    std::size_t count = 0;        // fluid particles
+    std::size_t ghost_count = 0;  // mirrored particles behind walls
     std::size_t ghost_clusters = 0;
 
     std::size_t clusters() const { return (count + W - 1) / W; }
@@ -46,11 +46,11 @@ struct Particles {
     Vectors<D> x_built;              // position when the neighbour lists were built [m]
 
     // Read in pair loops: fluid and ghosts.
-    Vectors<D> x, v;     // [m], [m/s]
-    Scalars p;           // [Pa]
-    Scalars impedance;   // Z = ρc [kg/(m² s)]
-    Scalars volume;      // ω = m/ρ [m^D]; 0 in unused lanes
-    Vectors<D> grad_p;   // renormalised gradients; 0 where the support is too empty to reconstruct
+    Vectors<D> x, v;    // [m], [m/s]
+    Scalars p;          // [Pa]
+    Scalars impedance;  // Z = ρc [kg/(m² s)]
+    Scalars volume;     // ω = m/ρ [m^D]; 0 in unused lanes
+    Vectors<D> grad_p;  // renormalised gradients; 0 where the support is too empty to reconstruct
     Tensors<D> grad_v;
 
     // Sets the number of fluid particles and ghosts and makes room; unused lanes become harmless. Values of the first

@@ -4,7 +4,8 @@
 //     u_e = (Z_L u_L + Z_R u_R + p_L - p_R) / (Z_L + Z_R)
 //     p_e = (Z_R p_L + Z_L p_R + Z_L Z_R (u_L - u_R)) / (Z_L + Z_R)
 // exact: Newton on the two wave curves of Tait's equation: shocks by Rankine–Hugoniot, rarefactions by the Riemann
-//     invariant u ± 2c/(γ-1) (Toro, Riemann Solvers, ch. 4; for p(ρ) only: Ivings et al. 1998). Reference for the tests.
+//     invariant u ± 2c/(γ-1) (Toro, Riemann Solvers, ch. 4; for p(ρ) only: Ivings et al. 1998). Reference for the
+//     tests.
 #pragma once
 #include <algorithm>
 #include <cmath>

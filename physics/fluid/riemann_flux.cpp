@@ -38,8 +38,8 @@ struct FluxPass {
 };
 
 template <int D, bool muscl>
-void run(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
-         const FluxParameters& parameters, double reference_density, LaneRange lanes) {
+void run(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel, const FluxParameters& parameters,
+         double reference_density, LaneRange lanes) {
     FluxPass<D, muscl> pass{.fields = FluxFields<D>(s),
                             .mass = s.mass.data(),
                             .deviation = s.deviation.data(),

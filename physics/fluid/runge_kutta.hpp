@@ -21,8 +21,7 @@ struct RungeKutta {
 
 // Takes the rates of stage `stage` (0 … 3) and moves the fluid particles of these lanes to the next stage's state.
 template <int D>
-void advance_stage(Particles<D>& particles, RungeKutta<D>& rk, const Tait& tait, int stage, double dt,
-                   LaneRange lanes);
+void advance_stage(Particles<D>& particles, RungeKutta<D>& rk, const Tait& tait, int stage, double dt, LaneRange lanes);
 
 // Near a free surface water does not hold together: particles whose support is emptier than this bear no tension.
 // Inside, suction is physical (p is relative to the air) and stays.

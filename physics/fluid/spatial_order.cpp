@@ -47,9 +47,11 @@ std::span<const std::uint32_t> SpatialOrder<D>::sort(const Vectors<D>& x, std::s
         const auto end = c + 2 <= columns ? order_.begin() + column_start_[c + 2] : order_.end();
         // Ties are broken by the index, so that the order is the same everywhere.
         if (c % 2 == 0)
-            std::sort(begin, end, [&](auto a, auto b) { return height[a] < height[b] || (height[a] == height[b] && a < b); });
+            std::sort(begin, end,
+                      [&](auto a, auto b) { return height[a] < height[b] || (height[a] == height[b] && a < b); });
         else
-            std::sort(begin, end, [&](auto a, auto b) { return height[a] > height[b] || (height[a] == height[b] && a < b); });
+            std::sort(begin, end,
+                      [&](auto a, auto b) { return height[a] > height[b] || (height[a] == height[b] && a < b); });
     }
     return order_;
 }

@@ -38,8 +38,8 @@ class ForceConservativeLoad {
     static constexpr std::size_t sources_per_block = 64;
     struct Source {
         std::uint32_t ghost;
-        std::int32_t panel;         // that gets its force
-        std::uint32_t begin, end;   // into fluid_
+        std::int32_t panel;        // that gets its force
+        std::uint32_t begin, end;  // into fluid_
     };
     struct Pair {
         std::uint32_t ghost, fluid;

@@ -86,7 +86,8 @@ GhostWalls::Mirror GhostWalls::mirror(const Particles<2>& particles, const Ghost
     const Vec2& n = panels.normal[k];
     const Vec2 from = x - panels.start(k);
     const double s = std::clamp(from.dot(panels.tangent[k]) / panels.length[k], 0.0, 1.0);
-    const Vec2 &v_first = panels.velocity[std::size_t(panel.first)], &v_second = panels.velocity[std::size_t(panel.second)];
+    const Vec2 &v_first = panels.velocity[std::size_t(panel.first)],
+               &v_second = panels.velocity[std::size_t(panel.second)];
     m.wall_velocity = (1 - s) * v_first + s * v_second;
     m.S = Eigen::Matrix2d::Identity() - 2 * n * n.transpose();
     m.T = panel.no_slip ? Eigen::Matrix2d(-Eigen::Matrix2d::Identity()) : m.S;
@@ -132,6 +133,27 @@ void GhostWalls::update_gradients(Particles<2>& particles, const Vec2& gravity, 
             for (int e = 0; e < 2; ++e) particles.grad_v[std::size_t(d)][std::size_t(e)][lane] = ghost_grad_v(d, e);
         }
     }
+}
+
+std::size_t GhostWalls::hold_back(Particles<2>& particles, double spacing) const {
+    std::size_t held = 0;
+    for (const Ghost& ghost : ghosts) {
+        if (ghost.panel < 0) continue;
+        const auto k = std::size_t(ghost.panel);
+        const std::size_t j = ghost.parent;
+        const Vec2 from = Vec2(particles.x[0][j], particles.x[1][j]) - panels.start(k);
+        const double d = from.dot(panels.normal[k]), s = from.dot(panels.tangent[k]);
+        if (d >= 0 || d < -0.5 * spacing || s < 0 || s > panels.length[k]) continue;
+        const Vec2 v = Vec2(particles.v[0][j], particles.v[1][j]) - mirror(particles, ghost).wall_velocity;
+        const Vec2 back = (1e-3 * spacing - d) * panels.normal[k],
+                   slower = std::max(0.0, -v.dot(panels.normal[k])) * panels.normal[k];
+        for (int c = 0; c < 2; ++c) {
+            particles.x[std::size_t(c)][j] += back[c];
+            particles.v[std::size_t(c)][j] += slower[c];
+        }
+        ++held;
+    }
+    return held;
 }
 
 Escape GhostWalls::deepest(const Particles<2>& particles) const {

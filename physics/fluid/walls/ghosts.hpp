@@ -41,6 +41,11 @@ class GhostWalls {
     void update_state(Particles<2>& particles, const Vec2& gravity, std::size_t block) const;
     // Their gradients, from their parents'.
     void update_gradients(Particles<2>& particles, const Vec2& gravity, std::size_t block) const;
+    // A particle alone, a drop of one, has nobody to push against: its own ghost comes arbitrarily close and repels it
+    // arbitrarily little. Parents that have come to lie behind their panel are put back onto it and lose the velocity
+    // towards it, like a sticky impact. Resolved flow never gets there. Returns how many; deeper than half a spacing
+    // is left to deepest() and is an error.
+    std::size_t hold_back(Particles<2>& particles, double spacing) const;
     // The deepest parent behind its panel.
     Escape deepest(const Particles<2>& particles) const;
 

@@ -10,19 +10,21 @@ namespace aquagraph::fluid {
 
 using Vec2 = Eigen::Vector2d;
 
-inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+inline double cross(const Vec2& a, const Vec2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
 
 struct Panel {
-    int first, second;     // vertices
-    int wall;              // index into names
+    int first, second;  // vertices
+    int wall;           // index into names
     bool no_slip = false;
-    bool wet = false;      // belongs to a solid that wants to know its load
+    bool wet = false;  // belongs to a solid that wants to know its load
 };
 
 struct Panels {
     std::vector<Vec2> position, velocity;  // of vertices [m], [m/s]
     std::vector<Panel> panels;
-    std::vector<std::string> names;        // of walls
+    std::vector<std::string> names;  // of walls
 
     // Derived from positions by update_geometry().
     std::vector<Vec2> tangent, normal;  // unit vectors; the normal points into the fluid
@@ -45,11 +47,11 @@ std::vector<int> smooth_patches(const Panels& panels);
 // another wall (a gate on its floor): closer than `touching` counts as closed, since no particle passes there.
 struct Corner {
     int panel[2];
-    int vertex;                 // moves with it …
-    int floor = -1;             // … projected onto this panel, if any
-    bool sharp;                 // fluid angle below 135°: both velocity components turn round
-    Vec2 away[2];               // along each panel, away from the corner
-    Vec2 point, velocity;       // present place and velocity
+    int vertex;            // moves with it …
+    int floor = -1;        // … projected onto this panel, if any
+    bool sharp;            // fluid angle below 135°: both velocity components turn round
+    Vec2 away[2];          // along each panel, away from the corner
+    Vec2 point, velocity;  // present place and velocity
     void update(const Panels& panels);
 };
 std::vector<Corner> find_corners(const Panels& panels, double touching);

@@ -87,7 +87,8 @@ PanelGrid::Crossing PanelGrid::first_crossing(const Cell& cell, const Vec2& a, c
 #pragma omp simd
         for (std::size_t k = 0; k < m; ++k) {
             // distance along the normal (-ty, tx) and along the tangent, of both ends
-            const double da = -(ax - x[k]) * ty[k] + (ay - y[k]) * tx[k], db = -(bx - x[k]) * ty[k] + (by - y[k]) * tx[k];
+            const double da = -(ax - x[k]) * ty[k] + (ay - y[k]) * tx[k],
+                         db = -(bx - x[k]) * ty[k] + (by - y[k]) * tx[k];
             const double sa = (ax - x[k]) * tx[k] + (ay - y[k]) * ty[k], sb = (bx - x[k]) * tx[k] + (by - y[k]) * ty[k];
             const double t = da / (da - db), s = sa + t * (sb - sa);
             const bool crosses = (da * db < 0) & (s >= -slack * length[k]) & (s <= (1 + slack) * length[k]);
@@ -126,7 +127,9 @@ void Visibility::prepare(const Particles<2>& particles, const Panels& panels, co
     }
 }
 
-bool Visibility::sees_everything(std::size_t i) const { return !cell_[i] || cell_[i]->convex_room; }
+bool Visibility::sees_everything(std::size_t i) const {
+    return !cell_[i] || cell_[i]->convex_room;
+}
 
 bool Visibility::sees(std::size_t i, const PanelGrid::Cell& cell, std::size_t lane, int* entry) const {
     const std::size_t ghost_begin = particles_->ghost_begin();
@@ -152,8 +155,7 @@ std::uint8_t Visibility::lanes_seen(std::size_t i, std::size_t cluster, std::uin
     unsigned seen = 0;
     int entry = -1;
     for (unsigned l = 0; l < W; ++l)
-        if ((in_reach >> l) & 1u)
-            seen |= unsigned(sees(i, *cell_[i], cluster * W + l, &entry)) << l;
+        if ((in_reach >> l) & 1u) seen |= unsigned(sees(i, *cell_[i], cluster * W + l, &entry)) << l;
     return std::uint8_t(seen);
 }
 

@@ -25,8 +25,8 @@ class PanelGrid {
         std::vector<int> panel;
         Scalars x, y, tx, ty, length;  // start, tangent, length of each
         std::vector<int> patch;
-        bool convex_room = false;      // one straight patch or concave corners only: nothing hides anything
-        bool wet = false;              // some panel is wet
+        bool convex_room = false;  // one straight patch or concave corners only: nothing hides anything
+        bool wet = false;          // some panel is wet
     };
     struct Crossing {
         int entry = -1;    // index into the cell's arrays; -1: the line of sight meets no panel
