@@ -41,6 +41,7 @@ std::string describe(const Model& model, const tasks::SickParticle& sick) {
         case fluid::Ailment::left_domain:
             text += "a wall is missing or has a hole there; close it, enlarge the domain, or set edge = \"open\"";
             break;
+        case fluid::Ailment::passed_wall:
         case fluid::Ailment::no_volume:
         case fluid::Ailment::not_finite:
         case fluid::Ailment::none:

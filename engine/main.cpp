@@ -1,8 +1,9 @@
 // The command line.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
 
+#include "engine/check.hpp"
+#include "engine/graph_command.hpp"
 #include "engine/run.hpp"
 #include "engine/version.hpp"
 #include "io/scene_reader.hpp"
@@ -22,6 +23,17 @@ int main(int argc, char** argv) {
     run->add_option("--trace", options.trace, "Write when every task ran on which thread (Chrome trace JSON)");
     run->add_flag("--quiet", options.quiet, "No progress, no table");
 
+    int check_threads = 0;
+    auto* check = app.add_subcommand("check", "Say what a scene models and what it will cost, without running it");
+    check->add_option("scene", scene_file, "Scene file (TOML)")->required();
+    check->add_option("--threads", check_threads, "Threads to estimate for (default: all cores)")
+        ->check(CLI::Range(1, 1024));
+
+    std::filesystem::path drawing;
+    auto* graph = app.add_subcommand("graph", "Draw the job graph of a scene (DOT, and SVG if Graphviz is there)");
+    graph->add_option("scene", scene_file, "Scene file (TOML)")->required();
+    graph->add_option("--out", drawing, "File for the DOT text (default: <scene name>.dot)");
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -30,6 +42,15 @@ int main(int argc, char** argv) {
     }
     try {
         const io::Scene scene = io::read_scene(scene_file);
+        if (check->parsed()) {
+            engine::check(scene, check_threads, std::cout);
+            return engine::success;
+        }
+        if (graph->parsed()) {
+            engine::draw_graph(scene, drawing.empty() ? std::filesystem::path(scene.name + ".dot") : drawing,
+                               std::cout);
+            return engine::success;
+        }
         return engine::run(scene, options, std::cout, std::cerr);
     } catch (const io::SceneError& error) {
         std::cerr << error.what() << "\n";

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "engine/version.hpp"
+#include "io/scene_reader.hpp"
 #include "io/summary.hpp"
 #include "io/vtk_hdf.hpp"
 #include "tasks/resources.hpp"
@@ -12,6 +13,7 @@ namespace aquagraph::engine {
 
 namespace {
 
+// Made before anything is computed or written, so that a comparison with a column that is not there ends at once.
 std::vector<io::HistoryColumn> history_columns(const io::Scene& scene, const Model& model) {
     std::vector<io::HistoryColumn> columns{{"time", "s"}, {"step_size", "s"}};
     if (scene.solid)
@@ -36,6 +38,9 @@ std::vector<io::HistoryColumn> history_columns(const io::Scene& scene, const Mod
         columns.push_back({"particles", ""});
         columns.push_back({"fastest_particle", "m/s"});
     }
+    std::vector<std::string> names;
+    for (const io::HistoryColumn& column : columns) names.push_back(column.name);
+    io::check_compared_columns(scene, names);
     return columns;
 }
 
@@ -49,11 +54,12 @@ double next_due(double t, double interval) {
 Results::Results(const io::Scene& scene, const Model& model, std::filesystem::path folder)
     : scene_(scene),
       model_(model),
+      columns_(history_columns(scene, model)),
       folder_(std::move(folder)),
       fluid_series_((std::filesystem::create_directories(folder_), folder_ / "fluid.hdf.series")),
       solid_series_(folder_ / "solid.hdf.series"),
       flow_(scene.fluid ? scene.fluid->spacing : 1.0) {
-    history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", history_columns(scene, model));
+    history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", columns_);
     if (model.solid) {
         for (const io::Track& track : scene.solid->tracks)
             tracked_.push_back(nearest_node(model.solid->mesh(), track.point));
@@ -61,19 +67,19 @@ Results::Results(const io::Scene& scene, const Model& model, std::filesystem::pa
     }
 }
 
-std::vector<tasks::Task> Results::tasks() {
+std::vector<tasks::Task> result_tasks(Results* results) {
     namespace resource = tasks::resource;
     const std::vector<std::string> reads = {resource::clock, resource::fluid, resource::interface_loads,
                                             resource::solid_state};
     return {{.name = "history",
              .reads = reads,
-             .writes = {tasks::resource::results},
-             .body = [this] { history_if_due(); },
+             .writes = {resource::results},
+             .body = [results] { results->history_if_due(); },
              .group = "results"},
             {.name = "frames",
              .reads = reads,
-             .writes = {tasks::resource::results},
-             .body = [this] { frame_if_due(); },
+             .writes = {resource::results},
+             .body = [results] { results->frame_if_due(); },
              .group = "results"}};
 }
 

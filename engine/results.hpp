@@ -35,12 +35,12 @@ struct RunFigures {
 
 class Results {
   public:
-    // Makes the folder. Throws std::system_error where it cannot be written.
+    // Makes the folder. Throws io::SceneError for a comparison with a column that will not be there, std::system_error
+    // where the folder cannot be written.
     Results(const io::Scene& scene, const Model& model, std::filesystem::path folder);
 
-    // Tasks for the end of a cycle: a history row and a frame where they are due.
-    std::vector<tasks::Task> tasks();
-
+    void history_if_due();
+    void frame_if_due();
     void write_history_row();
     void write_frame();
     // Summary and report; returns the comparisons.
@@ -49,13 +49,12 @@ class Results {
     const std::filesystem::path& folder() const { return folder_; }
 
   private:
-    void frame_if_due();
-    void history_if_due();
     void write_fluid_frame(int number);
     void write_solid_frame(int number);
 
     const io::Scene& scene_;
     const Model& model_;
+    std::vector<io::HistoryColumn> columns_;
     std::filesystem::path folder_;
     std::unique_ptr<io::HistoryWriter> history_;
     io::FrameSeries fluid_series_, solid_series_;
@@ -66,5 +65,9 @@ class Results {
     double row_time_ = -1, frame_time_ = -1;  // of the last ones written
     int frames_ = 0;
 };
+
+// Tasks for the end of a cycle: a history row and a frame where they are due. `results` may be null where the listing
+// is only drawn.
+std::vector<tasks::Task> result_tasks(Results* results);
 
 }  // namespace aquagraph::engine

@@ -102,7 +102,7 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
     const std::unique_ptr<Model> model = make_model(scene);
     Results results(scene, *model, folder);
     std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
-    for (tasks::Task& task : results.tasks()) listing.push_back(std::move(task));
+    for (tasks::Task& task : result_tasks(&results)) listing.push_back(std::move(task));
     tasks::TaskGraph graph(std::move(listing), executor, trace ? &*trace : nullptr);
 
     const InterruptGuard guard;

@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <memory>
-#include <numeric>
 
+#include "physics/fluid/rebuild.hpp"
 #include "tasks/parallel_loop.hpp"
 #include "tasks/resources.hpp"
-#include "tasks/statistics.hpp"
+#include "tasks/stepping.hpp"
 
 namespace aquagraph::tasks {
 
@@ -25,8 +25,6 @@ class NeighbourSearchTask {
     void operator()() {
         if (lists_hold()) return;
         rebuild();
-        ++fluid_.rebuilds;
-        report_work(fluid_.particles.count);
     }
 
   private:
@@ -65,35 +63,19 @@ class NeighbourSearchTask {
         auto& particles = fluid_.particles;
         if (walls_) check_walls();
         if (!fluid_.closed) fluid_.removed += remove_outside(particles, fluid_.domain);
-        fluid_.reorder.apply(particles, fluid_.order.sort(particles.x, particles.count, fluid_.spacing));
-        for (std::size_t block = 0; block < fluid_.blocks(); ++block) {
-            update_state(particles, fluid_.tait, fluid_.lanes(block));
-            const auto lanes = fluid_.lanes(block);
-            for (std::size_t i = lanes.begin; i < lanes.end; ++i)
-                for (std::size_t d = 0; d < 2; ++d) particles.x_built[d][i] = particles.x[d][i];
-        }
-        const fluid::PairFilter<2>* filter = nullptr;
-        if (walls_) {
-            if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
-            walls_->rebuild(particles, fluid_.spacing, fluid_.lists.reach(),
-                            {fluid_.flux.gravity[0], fluid_.flux.gravity[1]});
-            built_ = walls_->panels.position;
-            filter = &walls_->visibility;
-        }
-        fluid_.runge_kutta.resize(particles);
-        fluid_.search.build(particles, fluid_.lists, filter, parallel_loop);
+        if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
+        rebuild_lists(fluid_, walls_, parallel_loop);
+        if (walls_) built_ = walls_->panels.position;
         if (interface_) interface_->load.rebuild(particles, fluid_.lists, *walls_);
     }
 
     // A particle deeper behind a wall than half a spacing would no longer be mirrored: it has passed through.
     void check_walls() const {
         const fluid::Escape escape = walls_->deepest(fluid_.particles);
-        if (escape.id < 0 || escape.depth < 0.5 * fluid_.spacing) return;
-        throw std::runtime_error("particle " + std::to_string(escape.id) + " has passed through wall '" +
-                                 walls_->panels.name(std::size_t(escape.panel)) + "' and is " +
-                                 std::to_string(escape.depth / fluid_.spacing) +
-                                 " spacings behind it; likely causes: a sound speed below ten times the fastest flow, "
-                                 "a CFL number too large, or a gap narrower than two particles");
+        if (escape.depth < 0.5 * fluid_.spacing) return;
+        throw SickParticle({fluid::Ailment::passed_wall, escape.particle},
+                           "a particle has passed through wall '" + walls_->panels.name(std::size_t(escape.panel)) +
+                               "' and is " + std::to_string(escape.depth / fluid_.spacing) + " spacings behind it");
     }
 
     fluid::Fluid<2>& fluid_;

@@ -54,6 +54,7 @@ Task examine(fluid::Fluid<D>& fluid, const std::string& label) {
                 for (const fluid::Diagnosis& diagnosis : *found) {
                     switch (diagnosis.ailment) {
                         case fluid::Ailment::none:
+                        case fluid::Ailment::passed_wall:  // the neighbour search finds those
                             break;
                         case fluid::Ailment::not_finite:
                             throw SickParticle(diagnosis, "a particle's state is not a number");

@@ -6,7 +6,7 @@
 
 namespace aquagraph::fluid {
 
-enum class Ailment { none, not_finite, no_volume, left_domain };
+enum class Ailment { none, not_finite, no_volume, left_domain, passed_wall };
 
 struct Diagnosis {
     Ailment ailment = Ailment::none;

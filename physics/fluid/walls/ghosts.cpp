@@ -164,7 +164,7 @@ Escape GhostWalls::deepest(const Particles<2>& particles) const {
         const Vec2 from = Vec2(particles.x[0][ghost.parent], particles.x[1][ghost.parent]) - panels.start(k);
         const double depth = -from.dot(panels.normal[k]), s = from.dot(panels.tangent[k]);
         if (s < 0 || s > panels.length[k]) continue;
-        if (depth > escape.depth) escape = {particles.id[ghost.parent], depth, ghost.panel};
+        if (depth > escape.depth) escape = {ghost.parent, depth, ghost.panel};
     }
     return escape;
 }

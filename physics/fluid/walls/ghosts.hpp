@@ -15,8 +15,8 @@
 namespace aquagraph::fluid {
 
 struct Escape {
-    std::int64_t id = -1;  // of the particle furthest behind a wall that mirrors it, -1: none
-    double depth = 0;      // how far behind [m]
+    std::size_t particle = 0;  // the one furthest behind a wall that mirrors it
+    double depth = 0;          // how far behind [m]; 0: none is
     int panel = -1;
 };
 

@@ -1,0 +1,95 @@
+#include "engine/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ostream>
+
+#include "engine/listings.hpp"
+#include "physics/fluid/gradients.hpp"
+#include "physics/fluid/rebuild.hpp"
+#include "physics/fluid/time_step.hpp"
+#include "tasks/executor.hpp"
+#include "tasks/parallel_loop.hpp"
+
+namespace aquagraph::engine {
+
+namespace {
+
+// Share of a run that gradients and fluxes take; the rest is searches, stages, walls, output. Measured on the gate.
+constexpr double pass_share = 0.72;
+
+std::string duration(double seconds) {
+    if (seconds < 90) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+    if (seconds < 5400) return fmt::format("{:.0f} min", seconds / 60);
+    if (seconds < 2 * 86400) return fmt::format("{:.1f} h", seconds / 3600);
+    return fmt::format("{:.1f} days", seconds / 86400);
+}
+
+// Wall-clock time of one evaluation of all rates: the median of a few.
+double time_evaluation(fluid::Fluid<2>& fluid, tasks::Executor& executor) {
+    std::array<double, 5> times{};
+    for (double& time : times) {
+        const auto begin = std::chrono::steady_clock::now();
+        executor.execute([&] {
+            tasks::for_each_block(fluid.blocks(), [&](std::size_t block) {
+                compute_gradients(fluid.particles, fluid.lists, fluid.kernel, fluid.lanes(block));
+            });
+            tasks::for_each_block(fluid.blocks(), [&](std::size_t block) {
+                compute_fluxes(fluid.particles, fluid.lists, fluid.kernel, fluid.flux, fluid.tait.reference_density,
+                               fluid.lanes(block));
+            });
+        });
+        time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+    std::sort(times.begin(), times.end());
+    return times[times.size() / 2];
+}
+
+}  // namespace
+
+void check(const io::Scene& scene, int threads, std::ostream& out) {
+    tasks::Executor executor(threads);
+    const std::unique_ptr<Model> model = make_model(scene);
+    out << scene.title << "\n";
+    if (model->fluid) {
+        fluid::Fluid<2>& fluid = *model->fluid;
+        executor.execute([&] { rebuild_lists(fluid, model->walls ? &*model->walls : nullptr, tasks::parallel_loop); });
+        fluid::StepLimits limits;
+        for (std::size_t block = 0; block < fluid.blocks(); ++block)
+            limits =
+                combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block)));
+        const bool cps = model->interface && scene.coupling.algorithm == io::CouplingAlgorithm::cps;
+        const double step = (cps ? scene.coupling.step_fraction : 1) * limits.step();
+        const double steps = std::ceil(scene.end_time / step);
+        const double n = double(std::max<std::size_t>(1, fluid.particles.count));
+        const double evaluation = time_evaluation(fluid, executor);
+        out << fmt::format(
+            "fluid      Riemann-SPH ({}), Wendland C2, RK4; {} particles of {:.4g} m, R/Δx {:g}, {:.0f} neighbours\n",
+            fluid.flux.muscl ? "MUSCL, minmod" : "first order", fluid.particles.count, fluid.spacing,
+            scene.fluid->support_ratio, double(fluid.lists.pairs()) / n);
+        if (model->walls)
+            out << fmt::format("walls      ghost particles: {} panels, {} ghosts\n", model->walls->panels.panels.size(),
+                               model->walls->ghosts.size());
+        if (model->solid) {
+            const auto& mesh = model->solid->mesh();
+            out << fmt::format("solid      {} eight-node quadrilaterals, {} nodes, {} with αs = {:g}\n",
+                               mesh.elements.size(), mesh.nodes.size(),
+                               scene.solid->scheme == io::SolidScheme::hht ? "HHT" : "Newmark", scene.solid->alpha);
+        }
+        if (model->interface)
+            out << fmt::format("coupling   {}, p = {}, force-conservative load on {} nodes\n",
+                               cps ? "CPS (fluid and solid side by side)" : "CSS (solid after fluid)",
+                               scene.coupling.ratio, model->interface->surface.vertices());
+        out << fmt::format("time       {:g} s in about {:.0f} steps of {:.3g} s ({})\n", scene.end_time, steps, step,
+                           limits.name());
+        out << fmt::format("memory     {:.1f} MB, {:.0f} bytes per particle\n", bytes_per_particle(fluid) * n / 1e6,
+                           bytes_per_particle(fluid));
+        out << fmt::format("run time   about {} on {} threads of this machine\n",
+                           duration(steps * fluid::stages * evaluation / pass_share), executor.threads());
+    }
+}
+
+}  // namespace aquagraph::engine
