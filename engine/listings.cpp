@@ -40,7 +40,7 @@ class Listing {
     // One step of the fluid; `label` tells the steps of a cycle apart.
     void fluid_step(const std::string& label) {
         fluid::Fluid<2>& fluid = *model_.fluid;
-        group(label);
+        group(label + ", lists");
         coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
         fluid::GhostWalls* walls = model_.walls ? &*model_.walls : nullptr;
         add(tasks::neighbour_search(fluid, walls, interface, model_.clock, label));
@@ -53,7 +53,7 @@ class Listing {
             add(tasks::fluxes(fluid, name));
             add(tasks::runge_kutta_stage(fluid, model_.clock, stage));
         }
-        group(label);
+        group(label + ", end");
         if (walls) add(tasks::wall_contact(fluid, *walls, label));
         add(tasks::advance_clock(model_.clock, label));
         add(tasks::examine(fluid, label));

@@ -129,7 +129,10 @@ std::unique_ptr<Model> make_model(const io::Scene& scene) {
         interface.fluid_loads.assign(2 * model->solid->mesh().nodes.size(), 0.0);
         interface.solid_loads = interface.fluid_loads;
     }
-    if (model->walls) model->walls->panels.update_geometry();
+    if (model->walls) {
+        model->walls->panels.update_geometry();
+        model->walls->panels.find_joints();
+    }
     return model;
 }
 

@@ -11,21 +11,6 @@ namespace {
 const double smooth_turn = std::numbers::pi / 6;
 const double least_concave_turn = 5 * std::numbers::pi / 180;  // below it the wedge to fill is thinner than a particle
 
-bool coincide(const Panels& panels, int a, int b, double scale) {
-    return a == b || (panels.position[std::size_t(a)] - panels.position[std::size_t(b)]).norm() < 1e-6 * scale;
-}
-
-// Calls f(k, l, vertex) for every pair of panels where l begins at the vertex that k ends at.
-template <class F>
-void each_joint(const Panels& panels, F&& f) {
-    const std::size_t n = panels.panels.size();
-    for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t l = 0; l < n; ++l)
-            if (k != l && coincide(panels, panels.panels[k].second, panels.panels[l].first,
-                                   std::min(panels.length[k], panels.length[l])))
-                f(k, l, panels.panels[k].second);
-}
-
 double turn(const Panels& panels, std::size_t k, std::size_t l) {
     return std::atan2(cross(panels.tangent[k], panels.tangent[l]), panels.tangent[k].dot(panels.tangent[l]));
 }
@@ -41,6 +26,17 @@ void Panels::update_geometry() {
         tangent[k] = along / length[k];
         normal[k] = Vec2(-tangent[k].y(), tangent[k].x());
     }
+}
+
+void Panels::find_joints() {
+    joints.clear();
+    const auto meet = [&](int a, int b, double scale) {
+        return a == b || (position[std::size_t(a)] - position[std::size_t(b)]).norm() < 1e-6 * scale;
+    };
+    for (std::size_t k = 0; k < panels.size(); ++k)
+        for (std::size_t l = 0; l < panels.size(); ++l)
+            if (k != l && meet(panels[k].second, panels[l].first, std::min(length[k], length[l])))
+                joints.push_back({int(k), int(l)});
 }
 
 int Panels::add_wall(const std::string& name, const std::vector<Vec2>& points, bool closed, bool no_slip) {
@@ -62,11 +58,11 @@ std::vector<int> smooth_patches(const Panels& panels) {
         while (patch[std::size_t(k)] != k) k = patch[std::size_t(k)];
         return k;
     };
-    each_joint(panels, [&](std::size_t k, std::size_t l, int) {
-        if (std::fabs(turn(panels, k, l)) >= smooth_turn) return;
-        const int a = root(int(k)), b = root(int(l));
+    for (const Joint& joint : panels.joints) {
+        if (std::fabs(turn(panels, std::size_t(joint.before), std::size_t(joint.after))) >= smooth_turn) continue;
+        const int a = root(joint.before), b = root(joint.after);
         patch[std::size_t(std::max(a, b))] = std::min(a, b);
-    });
+    }
     for (std::size_t k = 0; k < patch.size(); ++k) patch[k] = root(int(k));
     return patch;
 }
@@ -86,19 +82,20 @@ std::vector<Corner> find_corners(const Panels& panels, double touching) {
         corner.update(panels);
         corners.push_back(corner);
     };
-    each_joint(panels, [&](std::size_t k, std::size_t l, int vertex) {
+    for (const Joint& joint : panels.joints) {
+        const auto k = std::size_t(joint.before), l = std::size_t(joint.after);
         const double angle = turn(panels, k, l);
-        if (angle < least_concave_turn) return;
+        if (angle < least_concave_turn) continue;
         Corner corner{};
-        corner.panel[0] = int(k);
-        corner.panel[1] = int(l);
-        corner.vertex = vertex;
+        corner.panel[0] = joint.before;
+        corner.panel[1] = joint.after;
+        corner.vertex = panels.panels[k].second;
         corner.floor = -1;
         corner.sharp = angle > std::numbers::pi / 4;
         corner.away[0] = -panels.tangent[k];
         corner.away[1] = panels.tangent[l];
         add(corner);
-    });
+    }
     // A vertex of k near the inside of a panel m of another wall; a body does not touch itself.
     for (std::size_t k = 0; k < panels.panels.size(); ++k) {
         for (const bool at_end : {false, true}) {

@@ -5,6 +5,24 @@
 
 namespace aquagraph::fluid {
 
+void PanelGrid::Cell::clear() {
+    panel.clear();
+    patch.clear();
+    for (Scalars* values : {&x, &y, &tx, &ty, &length}) values->clear();
+    convex_room = wet = false;
+}
+
+void PanelGrid::Cell::add(const Panels& panels, std::size_t k, int patch_of_k) {
+    panel.push_back(int(k));
+    patch.push_back(patch_of_k);
+    x.push_back(panels.start(k).x());
+    y.push_back(panels.start(k).y());
+    tx.push_back(panels.tangent[k].x());
+    ty.push_back(panels.tangent[k].y());
+    length.push_back(panels.length[k]);
+    wet = wet || panels.panels[k].wet;
+}
+
 void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, double reach) {
     const std::size_t n = panels.panels.size();
     Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
@@ -12,7 +30,7 @@ void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, doubl
         low = low.cwiseMin(panels.start(k)).cwiseMin(panels.end(k));
         high = high.cwiseMax(panels.start(k)).cwiseMax(panels.end(k));
     }
-    cells_.clear();
+    used_ = 0;
     index_.clear();
     nx_ = ny_ = 0;
     if (n == 0) return;
@@ -38,22 +56,16 @@ void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, doubl
                 if ((centre - a - s * panels.tangent[k]).norm() > reach * (1 + 0.7072)) continue;
                 int& cell = index_[std::size_t(iy) * std::size_t(nx_) + std::size_t(ix)];
                 if (cell < 0) {
-                    cell = int(cells_.size());
-                    cells_.emplace_back();
+                    cell = int(used_++);
+                    if (used_ > cells_.size()) cells_.emplace_back();
+                    cells_[std::size_t(cell)].clear();
                 }
-                Cell& c = cells_[std::size_t(cell)];
-                c.panel.push_back(int(k));
-                c.x.push_back(a.x());
-                c.y.push_back(a.y());
-                c.tx.push_back(panels.tangent[k].x());
-                c.ty.push_back(panels.tangent[k].y());
-                c.length.push_back(panels.length[k]);
-                c.patch.push_back(patch[k]);
-                c.wet = c.wet || panels.panels[k].wet;
+                cells_[std::size_t(cell)].add(panels, k, patch[k]);
             }
         }
     }
-    for (Cell& c : cells_) {
+    for (std::size_t used = 0; used < used_; ++used) {
+        Cell& c = cells_[used];
         // Nothing is hidden where every panel has all the others in front of it or in its own plane.
         c.convex_room = true;
         for (std::size_t k = 0; k < c.panel.size() && c.convex_room; ++k) {

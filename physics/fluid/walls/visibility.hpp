@@ -44,8 +44,9 @@ class PanelGrid {
     double inverse_width_ = 0;
     Vec2 origin_ = Vec2::Zero();
     int nx_ = 0, ny_ = 0;
-    std::vector<Cell> cells_;
-    std::vector<int> index_;  // nx × ny: which cell, or -1
+    std::vector<Cell> cells_;   // the first used_ of them; the others keep their memory for the next build
+    std::size_t used_ = 0;
+    std::vector<int> index_;    // nx × ny: which cell, or -1
 };
 
 class Visibility : public PairFilter<2> {
