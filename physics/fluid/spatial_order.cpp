@@ -9,7 +9,7 @@ namespace aquagraph::fluid {
 template <int D>
 std::span<const std::uint32_t> SpatialOrder<D>::sort(const Vectors<D>& x, std::size_t n, double spacing) {
     // Columns of cross-section sqrt(W) Δx (2D) or (2Δx)² (3D) hold clusters that are about as long as wide.
-    const double width = D == 2 ? std::sqrt(double(W)) * spacing : 2 * spacing;
+    double width = D == 2 ? std::sqrt(double(W)) * spacing : 2 * spacing;
     double low[D], high[D];
     for (int d = 0; d < D; ++d) {
         low[d] = std::numeric_limits<double>::max();
@@ -19,10 +19,17 @@ std::span<const std::uint32_t> SpatialOrder<D>::sort(const Vectors<D>& x, std::s
             high[d] = std::max(high[d], x[d][i]);
         }
     }
+    // They are wider only where a few far particles would need more columns than there are particles.
+    const auto along = [&](int d) { return n == 0 ? 1.0 : std::floor((high[d] - low[d]) / width) + 1; };
+    for (;; width *= 1.3) {
+        double total = 1;
+        for (int d = 0; d + 1 < D; ++d) total *= along(d);
+        if (!(total > 4.0 * double(n) + 64)) break;
+    }
     std::size_t columns_along[D] = {};
     std::size_t columns = 1;
     for (int d = 0; d + 1 < D; ++d) {
-        columns_along[d] = n == 0 ? 1 : std::size_t((high[d] - low[d]) / width) + 1;
+        columns_along[d] = std::size_t(along(d));
         columns *= columns_along[d];
     }
     column_of_.resize(n);

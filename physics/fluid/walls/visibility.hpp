@@ -27,6 +27,9 @@ class PanelGrid {
         std::vector<int> patch;
         bool convex_room = false;  // one straight patch or concave corners only: nothing hides anything
         bool wet = false;          // some panel is wet
+
+        void clear();
+        void add(const Panels& panels, std::size_t k, int patch_of_k);
     };
     struct Crossing {
         int entry = -1;    // index into the cell's arrays; -1: the line of sight meets no panel
