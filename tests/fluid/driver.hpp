@@ -1,0 +1,144 @@
+// The fluid's step without tasks, threads as the caller likes: what engine/listings.cpp lists, written as plain calls.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "physics/fluid/filling.hpp"
+#include "physics/fluid/fluid.hpp"
+#include "physics/fluid/gradients.hpp"
+#include "physics/fluid/time_step.hpp"
+#include "physics/fluid/walls/ghosts.hpp"
+
+namespace aquagraph::fluid::test {
+
+inline constexpr double support_ratio = 4;  // R/Δx
+
+template <int D>
+Fluid<D> make_fluid(double spacing, const Tait& tait, const FluxParameters& flux = {}) {
+    Fluid<D> fluid{.spacing = spacing,
+                   .tait = tait,
+                   .kernel = WendlandC2<D>(support_ratio * spacing),
+                   .flux = flux,
+                   .cfl = 0.375,
+                   .domain = {},
+                   .closed = false,
+                   .particles = {},
+                   .lists = {},
+                   .runge_kutta = {},
+                   .search = {},
+                   .order = {},
+                   .reorder = {}};
+    fluid.lists.radius = fluid.kernel.radius();
+    fluid.lists.skin = skin_ratio * fluid.kernel.radius();
+    return fluid;
+}
+
+template <int D>
+class Driver {
+  public:
+    explicit Driver(Fluid<D> fluid) : fluid(std::move(fluid)) {}
+
+    Fluid<D> fluid;
+    std::optional<GhostWalls> walls;                          // 2D only
+    std::function<void(Panels& panels, double time)> motion;  // places vertices and sets their velocities
+    double time = 0;
+
+    // Order, ghosts and lists.
+    void rebuild(BlockLoop loop = serial_loop) {
+        auto& s = fluid.particles;
+        fluid.reorder.apply(s, fluid.order.sort(s.x, s.count, fluid.spacing));
+        for (std::size_t block = 0; block < fluid.blocks(); ++block) update_state(s, fluid.tait, fluid.lanes(block));
+        for (int d = 0; d < D; ++d) std::copy(s.x[d].begin(), s.x[d].begin() + long(s.count), s.x_built[d].begin());
+        const PairFilter<D>* filter = nullptr;
+        if constexpr (D == 2) {
+            if (walls) {
+                if (motion) motion(walls->panels, time);
+                walls->rebuild(s, fluid.spacing, fluid.lists.reach(), gravity());
+                built_ = walls->panels.position;
+                filter = &walls->visibility;
+            }
+        }
+        fluid.runge_kutta.resize(s);
+        fluid.search.build(s, fluid.lists, filter, loop);
+        ++fluid.rebuilds;
+    }
+
+    // Ghosts, gradients and rates of the present state, walls as they are at `at`.
+    void rates(double at, BlockLoop loop = serial_loop) {
+        auto& s = fluid.particles;
+        if constexpr (D == 2) {
+            if (walls) {
+                if (motion) motion(walls->panels, at);
+                walls->update_geometry();
+                loop(walls->blocks(), [&](std::size_t block) { walls->update_state(s, gravity(), block); });
+            }
+        }
+        loop(fluid.blocks(),
+             [&](std::size_t block) { compute_gradients(s, fluid.lists, fluid.kernel, fluid.lanes(block)); });
+        if constexpr (D == 2)
+            if (walls) loop(walls->blocks(), [&](std::size_t block) { walls->update_gradients(s, gravity(), block); });
+        loop(fluid.blocks(), [&](std::size_t block) {
+            compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait.reference_density, fluid.lanes(block));
+        });
+    }
+
+    void step(double dt, BlockLoop loop = serial_loop) {
+        if (!lists_hold(dt)) rebuild(loop);
+        for (int stage = 0; stage < stages; ++stage) {
+            rates(time + stage_time[stage] * dt, loop);
+            loop(fluid.blocks(), [&](std::size_t block) {
+                advance_stage(fluid.particles, fluid.runge_kutta, fluid.tait, stage, dt, fluid.lanes(block));
+            });
+        }
+        if constexpr (D == 2)
+            if (walls) fluid.held_back += walls->hold_back(fluid.particles, fluid.spacing);
+        time += dt;
+    }
+
+    double largest_step() const {
+        StepLimits limits;
+        for (std::size_t block = 0; block < fluid.blocks(); ++block)
+            limits =
+                combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block)));
+        return limits.step();
+    }
+
+    void run(double until, BlockLoop loop = serial_loop) {
+        while (time < until * (1 - 1e-12)) step(std::min(largest_step(), until - time), loop);
+    }
+
+    Vec2 gravity() const { return {fluid.flux.gravity[0], fluid.flux.gravity[1]}; }
+
+  private:
+    bool lists_hold(double dt) const {
+        if (fluid.rebuilds == 0) return false;
+        const auto& s = fluid.particles;
+        double displacement2 = 0, speed2 = 0;
+        for (std::size_t block = 0; block < fluid.blocks(); ++block)
+            displacement2 = std::max(displacement2, largest_displacement_squared(s, block));
+        for (std::size_t i = 0; i < s.count; ++i) {
+            double v2 = 0;
+            for (int d = 0; d < D; ++d) v2 += s.v[d][i] * s.v[d][i];
+            speed2 = std::max(speed2, v2);
+        }
+        double moved = std::sqrt(displacement2) + dt * std::sqrt(speed2);
+        if constexpr (D == 2) {
+            if (walls) {
+                double wall2 = 0, wall_speed2 = 0;
+                for (std::size_t k = 0; k < built_.size(); ++k) {
+                    wall2 = std::max(wall2, (walls->panels.position[k] - built_[k]).squaredNorm());
+                    wall_speed2 = std::max(wall_speed2, walls->panels.velocity[k].squaredNorm());
+                }
+                moved += std::sqrt(wall2) + dt * std::sqrt(wall_speed2);
+            }
+        }
+        return moved < 0.5 * fluid.lists.skin;
+    }
+
+    std::vector<Vec2> built_;
+};
+
+}  // namespace aquagraph::fluid::test
