@@ -85,9 +85,10 @@ void print_table(std::ostream& out, const RunFigures& figures) {
 void print_comparisons(std::ostream& out, const std::vector<io::Comparison>& comparisons) {
     for (const io::Comparison& c : comparisons)
         if (c.error)
-            out << fmt::format("{} against {}: RMS {:.4g} {} ({:.1f} % of the peak), {} points in [{:g}, {:g}] s\n",
-                               c.column, c.label, c.rms, c.unit, 100 * c.normalised, c.points, c.window[0],
-                               c.window[1]);
+            out << fmt::format(
+                "{} against {}: RMS {:.4g} {} ({:.1f} % of the peak), mean {:+.3g} {}, {} points in [{:g}, {:g}] s\n",
+                c.column, c.label, c.rms, c.unit, 100 * c.normalised, c.mean, c.unit, c.points, c.window[0],
+                c.window[1]);
 }
 
 }  // namespace

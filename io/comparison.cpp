@@ -72,7 +72,7 @@ Comparison compare_with(const Compare& compare, const History& history) {
     const std::span<const double> computed = history.column(compare.column), time = history.time();
     result.unit = history.columns[*history.find(compare.column)].unit;
 
-    double squares = 0;
+    double squares = 0, sum = 0;
     for (std::size_t i = 0; i < result.reference.time.size(); ++i) {
         const double t = result.reference.time[i], expected = result.reference.value[i];
         if (t < compare.window[0] || t > compare.window[1]) continue;
@@ -82,6 +82,7 @@ Comparison compare_with(const Compare& compare, const History& history) {
         const double difference = interpolated(time, computed, t) - expected;
         ++result.points;
         squares += difference * difference;
+        sum += difference;
         // Written so that a NaN in the history shows.
         if (!(std::abs(difference) <= result.largest)) {
             result.largest = std::abs(difference);
@@ -89,11 +90,12 @@ Comparison compare_with(const Compare& compare, const History& history) {
         }
     }
     if (result.points == 0) {
-        result.rms = result.normalised = result.largest = result.largest_time =
+        result.rms = result.normalised = result.mean = result.largest = result.largest_time =
             std::numeric_limits<double>::quiet_NaN();
         return result;
     }
     result.rms = std::sqrt(squares / static_cast<double>(result.points));
+    result.mean = sum / static_cast<double>(result.points);
     result.normalised = result.peak > 0 ? result.rms / result.peak : 0;
     return result;
 }

@@ -31,6 +31,7 @@ struct Comparison {
     double rms = 0;                    // root mean square of computed - reference [unit]
     double peak = 0;                   // largest |reference| in the window [unit]
     double normalised = 0;             // rms / peak; 0 where peak is 0
+    double mean = 0;                   // mean of computed - reference: the bias [unit]
     double largest = 0;                // largest |computed - reference| [unit]
     double largest_time = 0;           // where that is [s]
 };

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
+#include <set>
 
 #include "io/report_parts.hpp"
 
@@ -52,13 +54,16 @@ nlohmann::json line(std::span<const double> time, std::span<const double> value)
 nlohmann::json compared_plot(const History& history, const std::string& column,
                              const std::vector<Comparison>& comparisons) {
     nlohmann::json series = nlohmann::json::array(), windows = nlohmann::json::array();
+    std::set<std::filesystem::path> drawn;
     std::string unit;
     for (const Comparison& c : comparisons) {
         if (c.column != column) continue;
         unit = c.unit;
-        series.push_back({{"label", c.label},
-                          {"kind", c.error ? "measured" : "drawn"},
-                          {"points", line(c.reference.time, c.reference.value)}});
+        // A curve that is compared over several windows is drawn once.
+        if (drawn.insert(c.file).second)
+            series.push_back({{"label", c.label},
+                              {"kind", c.error ? "measured" : "drawn"},
+                              {"points", line(c.reference.time, c.reference.value)}});
         if (c.error) windows.push_back(c.window);
     }
     if (history.find(column))

@@ -149,16 +149,18 @@ std::string comparison_table(const std::vector<Comparison>& comparisons) {
         if (!c.error) continue;
         rows += fmt::format(
             "<tr><td><code>{}</code></td><td>{}</td><td>{:g} – {:g} s</td><td class=\"number\">{}{}</td>"
-            "<td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
+            "<td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
+            "<td class=\"number\">{}</td></tr>\n",
             html_escaped(c.column), html_escaped(c.label), c.window[0], c.window[1], c.points,
             c.points == c.points_in_window ? "" : fmt::format(" of {}", c.points_in_window), quantity(c.rms, c.unit),
-            c.points ? fmt::format("{:.1f} %", 100 * c.normalised) : "–",
+            c.points ? fmt::format("{:.1f} %", 100 * c.normalised) : "–", quantity(c.mean, c.unit),
             c.points ? fmt::format("{} at {}", quantity(c.largest, c.unit), quantity(c.largest_time, "s")) : "–");
     }
     if (rows.empty()) return {};
     return "<div class=\"wide\"><table class=\"list\"><thead><tr><th>column</th><th>reference</th><th>window</th><th "
            "class=\"number\">points</th>"
-           "<th class=\"number\">RMS error</th><th class=\"number\">of the peak</th><th class=\"number\">largest "
+           "<th class=\"number\">RMS error</th><th class=\"number\">of the peak</th><th class=\"number\">mean "
+           "error</th><th class=\"number\">largest "
            "error</th></tr></thead><tbody>\n" +
            rows + "</tbody></table></div>\n";
 }

@@ -20,6 +20,7 @@ nlohmann::json to_json(const Comparison& comparison) {
             {"rms", comparison.rms},
             {"normalised_rms", comparison.normalised},
             {"peak", comparison.peak},
+            {"mean_error", comparison.mean},
             {"largest_error", comparison.largest},
             {"largest_error_time_s", comparison.largest_time}};
 }
