@@ -9,6 +9,7 @@
 #include "physics/fluid/filling.hpp"
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/gradients.hpp"
+#include "physics/fluid/rebuild.hpp"
 #include "physics/fluid/time_step.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 
@@ -48,22 +49,20 @@ class Driver {
 
     // Order, ghosts and lists.
     void rebuild(BlockLoop loop = serial_loop) {
-        auto& s = fluid.particles;
-        fluid.reorder.apply(s, fluid.order.sort(s.x, s.count, fluid.spacing));
-        for (std::size_t block = 0; block < fluid.blocks(); ++block) update_state(s, fluid.tait, fluid.lanes(block));
-        for (int d = 0; d < D; ++d) std::copy(s.x[d].begin(), s.x[d].begin() + long(s.count), s.x_built[d].begin());
-        const PairFilter<D>* filter = nullptr;
         if constexpr (D == 2) {
-            if (walls) {
-                if (motion) motion(walls->panels, time);
-                walls->rebuild(s, fluid.spacing, fluid.lists.reach(), gravity());
-                built_ = walls->panels.position;
-                filter = &walls->visibility;
-            }
+            if (walls && motion) motion(walls->panels, time);
+            rebuild_lists(fluid, walls ? &*walls : nullptr, loop);
+            if (walls) built_ = walls->panels.position;
+        } else {
+            auto& s = fluid.particles;
+            fluid.reorder.apply(s, fluid.order.sort(s.x, s.count, fluid.spacing));
+            for (std::size_t block = 0; block < fluid.blocks(); ++block)
+                update_state(s, fluid.tait, fluid.lanes(block));
+            for (int d = 0; d < D; ++d) std::copy(s.x[d].begin(), s.x[d].begin() + long(s.count), s.x_built[d].begin());
+            fluid.runge_kutta.resize(s);
+            fluid.search.build(s, fluid.lists, nullptr, loop);
+            ++fluid.rebuilds;
         }
-        fluid.runge_kutta.resize(s);
-        fluid.search.build(s, fluid.lists, filter, loop);
-        ++fluid.rebuilds;
     }
 
     // Ghosts, gradients and rates of the present state, walls as they are at `at`.
