@@ -1,0 +1,261 @@
+// Corners of ghost walls: the support of a particle beside any of them is as full as inside, and no place behind a wall
+// counts twice.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/fluid/basins.hpp"
+
+using namespace aquagraph;
+using namespace aquagraph::fluid;
+using namespace aquagraph::fluid::test;
+
+namespace {
+
+constexpr double spacing = 0.05, R = support_ratio * spacing;
+
+// Fullness and partition of unity of the particles that `chosen` picks, by place.
+struct Spread {
+    double least = 10, most = 0, least_unity = 10, most_unity = 0;
+    std::size_t count = 0;
+};
+
+template <class Chosen>
+Spread spread(const Driver<2>& driver, Chosen&& chosen) {
+    Spread found;
+    const auto& s = driver.fluid.particles;
+    for (std::size_t i = 0; i < s.count; ++i) {
+        if (!chosen(Vec2(s.x[0][i], s.x[1][i]))) continue;
+        ++found.count;
+        found.least = std::min(found.least, s.fullness[i]);
+        found.most = std::max(found.most, s.fullness[i]);
+        const double unity = partition_of_unity(driver.fluid, i);
+        found.least_unity = std::min(found.least_unity, unity);
+        found.most_unity = std::max(found.most_unity, unity);
+    }
+    return found;
+}
+
+// Of a particle in the middle of a large lattice.
+Spread inside() {
+    static const Spread found = [] {
+        const auto points = cells_where(15, 15, spacing, [](auto) { return true; });
+        Panels far;
+        far.add_wall("far", {{100, 1}, {100, 0}}, false, false);
+        return spread(settle(points, spacing, far),
+                      [](const Vec2& x) { return (x - Vec2(7.5, 7.5) * spacing).norm() < 0.1 * spacing; });
+    }();
+    return found;
+}
+
+double outside_distance(const Vec2& x, const Vec2& low, const Vec2& high) {
+    return std::hypot(std::max({low.x() - x.x(), 0.0, x.x() - high.x()}),
+                      std::max({low.y() - x.y(), 0.0, x.y() - high.y()}));
+}
+
+// Seen places that coincide: each would count twice. A line of sight through the very vertex of a convex corner enters
+// the wall on either side, rounding decides which: not counted.
+std::size_t places_seen_twice(const Driver<2>& driver) {
+    const auto& s = driver.fluid.particles;
+    const auto position = [&](std::size_t i) { return Vec2(s.x[0][i], s.x[1][i]); };
+    const auto grazes = [&](std::size_t i, std::size_t j) {
+        const Vec2 sight = (position(j) - position(i)).normalized();
+        for (const Vec2& vertex : driver.walls->panels.position)
+            if (std::fabs(cross(sight, vertex - position(i))) < 1e-9) return true;
+        return false;
+    };
+    std::size_t twice = 0;
+    for (std::size_t i = 0; i < s.count; ++i) {
+        const auto seen = neighbours_of(driver.fluid, i);
+        for (std::size_t a = 0; a < seen.size(); ++a)
+            for (std::size_t b = 0; b < a; ++b)
+                twice += distance(s, seen[a], seen[b]) < 0.3 * spacing && !grazes(i, seen[a]);
+    }
+    return twice;
+}
+
+}  // namespace
+
+TEST_CASE("beside a wall and in a right-angled corner the support is as full as inside") {
+    const auto points = cells_where(20, 20, spacing, [](auto) { return true; });
+    const Driver<2> driver = settle(points, spacing, tank(20 * spacing, 2));
+    REQUIRE(driver.walls->corners.size() == 2);
+    const Spread near = spread(driver, [](const Vec2& x) { return x.y() < 1 - R; });
+    REQUIRE(inside().count == 1);
+    CHECK(near.count == 320);
+    CHECK(near.least == doctest::Approx(inside().least).epsilon(1e-12));
+    CHECK(near.most == doctest::Approx(inside().least).epsilon(1e-12));
+    CHECK(near.least_unity == doctest::Approx(inside().least_unity).epsilon(1e-12));
+    CHECK(near.most_unity == doctest::Approx(inside().least_unity).epsilon(1e-12));
+    CHECK(places_seen_twice(driver) == 0);
+}
+
+TEST_CASE("round a thick body, convex corners included, every place behind its walls is seen once") {
+    // A body of 12 × 10 spacings in a pool of 44 × 42; then one off the lattice, with water in front of it by half a
+    // spacing at least.
+    for (const double shift : {0.0, 0.3}) {
+        CAPTURE(shift);
+        const Vec2 low = Vec2(16 + shift, 16 + shift) * spacing, high = Vec2(28 - shift, 26 - shift) * spacing;
+        const auto points = cells_where(44, 42, spacing, [&](const Point<2>& x) {
+            return x[0] < 16 * spacing || x[0] > 28 * spacing || x[1] < 16 * spacing || x[1] > 26 * spacing;
+        });
+        Panels panels;
+        add_body(panels, low, high);
+        const Driver<2> driver = settle(points, spacing, panels);
+        CHECK(driver.walls->corners.empty());
+        const Spread near = spread(driver, [&](const Vec2& x) { return outside_distance(x, low, high) < R; });
+        CAPTURE(near.least);
+        CAPTURE(near.most);
+        CAPTURE(near.least_unity);
+        CAPTURE(near.most_unity);
+        CHECK(near.count > 200);
+        CHECK(near.most < 1.1);
+        CHECK(near.least > 0.7);
+        CHECK(near.most_unity < 1.1);
+        CHECK(near.least_unity > 0.8);
+        if (shift == 0) CHECK(places_seen_twice(driver) == 0);
+    }
+}
+
+TEST_CASE("water on the two sides of a thin body does not mix, and no place counts twice") {
+    for (const double thickness : {0.02, 0.5, 1.0, 2.0, 3.0}) {  // spacings
+        CAPTURE(thickness);
+        // A plate from the middle of the pool upwards, its lower end in the water.
+        const double left = 15 * spacing, right = left + thickness * spacing, bottom = 14 * spacing;
+        std::vector<Point<2>> points = cells_where(15, 30, spacing, [](auto) { return true; });
+        for (auto x : cells_where(15, 30, spacing, [](auto) { return true; })) {
+            x[0] += right;
+            points.push_back(x);
+        }
+        // Below the plate the gap is filled with whole columns, as many as fit.
+        const int columns = static_cast<int>(thickness);
+        for (auto x : cells_where(columns, 14, spacing, [](auto) { return true; })) {
+            x[0] += left;
+            points.push_back(x);
+        }
+        Panels panels;
+        add_body(panels, {left, bottom}, {right, 2});
+        const Driver<2> driver = settle(points, spacing, panels);
+        CHECK(driver.walls->corners.empty());
+        const auto& s = driver.fluid.particles;
+        std::size_t across = 0, ghosts_seen = 0;
+        for (std::size_t i = 0; i < s.count; ++i)
+            for (const std::size_t j : neighbours_of(driver.fluid, i)) {
+                ghosts_seen += j >= s.ghost_begin();
+                if (j >= s.ghost_begin()) continue;
+                // Does the segment cross the plate? At the height where it passes the plate's middle.
+                const double middle = 0.5 * (left + right);
+                if ((s.x[0][i] < left) != (s.x[0][j] < left) && (s.x[0][i] < right) != (s.x[0][j] < right)) {
+                    const double along = (middle - s.x[0][i]) / (s.x[0][j] - s.x[0][i]);
+                    const double y = s.x[1][i] + along * (s.x[1][j] - s.x[1][i]);
+                    across += y > bottom + 0.5 * thickness * spacing;
+                }
+            }
+        CHECK(across == 0);
+        CHECK(ghosts_seen > 1000);
+        const auto near = spread(driver, [&](const Vec2& x) {
+            return outside_distance(x, {left, bottom}, {right, 2}) < R && x.y() < 30 * spacing - R;
+        });
+        CAPTURE(near.least);
+        CAPTURE(near.most);
+        CAPTURE(near.least_unity);
+        CAPTURE(near.most_unity);
+        CHECK(near.most < 1.1);
+        CHECK(near.most_unity < 1.1);
+        CHECK(near.least_unity > 0.7);
+        // Well above the plate's end it is a flat wall.
+        const auto flank = spread(driver, [&](const Vec2& x) {
+            return outside_distance(x, {left, bottom}, {right, 2}) < R && x.y() < 30 * spacing - R &&
+                   x.y() > bottom + R;
+        });
+        CHECK(flank.least == doctest::Approx(inside().least).epsilon(1e-12));
+        CHECK(flank.most == doctest::Approx(inside().least).epsilon(1e-12));
+    }
+}
+
+namespace {
+
+// A plate on a floor, or `gap` spacings above it, water on its left or on both sides.
+Driver<2> plate_on_floor(double gap, int width, bool both_sides) {
+    const double left = 12 * spacing, right = (12 + width) * spacing, end = (24 + width) * spacing;
+    const auto points = cells_where(24 + width, 20, spacing,
+                                    [&](const Point<2>& x) { return x[0] < left || (both_sides && x[0] > right); });
+    Panels panels = tank(end, 2);
+    add_body(panels, {left, gap * spacing}, {right, 2});
+    return settle(points, spacing, panels);
+}
+
+bool below_surface(const Vec2& x) {
+    return x.y() < 20 * spacing - R;
+}
+
+}  // namespace
+
+TEST_CASE("where a body stands on a floor, or nearly, the corner is filled as one of the tank's") {
+    for (const double gap : {0.0, 0.2, 0.45}) {  // spacings
+        for (const int width : {1, 3, 6}) {
+            CAPTURE(gap);
+            CAPTURE(width);
+            const Driver<2> driver = plate_on_floor(gap, width, false);
+            CHECK(driver.walls->corners.size() == 4);  // two of the tank, two at the foot of the body
+            const Spread near = spread(driver, below_surface);
+            CHECK(near.count == 12 * 16);
+            CHECK(near.least == doctest::Approx(inside().least).epsilon(1e-9));
+            CHECK(near.most == doctest::Approx(inside().least).epsilon(1e-9));
+            CHECK(places_seen_twice(driver) == 0);
+        }
+    }
+    // With room below it there is no corner.
+    CHECK(plate_on_floor(1.2, 3, false).walls->corners.size() == 2);
+}
+
+TEST_CASE("a plate thinner than R with water on both sides: the floor below its foot is seen once" *
+          doctest::should_fail()) {
+    // Known: the left water sees the ghosts of the right foot's corner, and those that the floor mirrors from the right
+    // water, through the floor on its own side, where the left foot's corner has put ghosts already.
+    for (const int width : {1, 3}) {
+        CAPTURE(width);
+        const Driver<2> driver = plate_on_floor(0.2, width, true);
+        const Spread near = spread(driver, [](const Vec2& x) { return x.y() < R; });
+        CHECK(near.most < 1.1);
+        CHECK(near.most_unity < 1.1);
+        CHECK(places_seen_twice(driver) == 0);
+    }
+}
+
+TEST_CASE("the ghosts of a thin plate's far side are seen nowhere on its near side" * doctest::should_fail()) {
+    // Known: such a ghost comes out of the near side by up to R, hence within R of particles up to 2R away, whose cell
+    // of the panel grid knows only panels within R and takes its place for one where nothing is hidden.
+    for (const int columns : {13, 14, 15, 16, 17})
+        for (const int width : {1, 2, 3}) {
+            CAPTURE(columns);
+            CAPTURE(width);
+            const double left = columns * spacing, right = (columns + width) * spacing;
+            const auto points = cells_where(2 * columns + width, 16, spacing,
+                                            [&](const Point<2>& x) { return x[0] < left || x[0] > right; });
+            Panels panels;
+            add_body(panels, {left, -1}, {right, 2});
+            const Driver<2> driver = settle(points, spacing, panels);
+            const Spread all = spread(driver, [&](const Vec2& x) {
+                return x.y() > R && x.y() < 16 * spacing - R && x.x() > R &&
+                       x.x() < (2 * columns + width) * spacing - R;
+            });
+            CHECK(all.most == doctest::Approx(inside().least).epsilon(1e-9));
+            CHECK(all.most_unity < 1.01);
+            CHECK(places_seen_twice(driver) == 0);
+        }
+}
+
+TEST_CASE("a body does not touch itself, however thin") {
+    const double left = 12 * spacing, thickness = 0.2 * spacing;
+    // Panels shorter than the plate is thick, as a fine mesh makes them.
+    std::vector<Vec2> points;
+    for (int k = 0; k <= 100; ++k) points.push_back({left, 0.3 + 0.01 * k});
+    for (int k = 100; k >= 0; --k) points.push_back({left + thickness, 0.3 + 0.01 * k});
+    Panels panels;
+    panels.add_wall("plate", points, true, false);
+    const auto cells = cells_where(24, 20, spacing, [](const Point<2>&) { return true; });
+    const Driver<2> driver = settle(cells, spacing, panels);
+    CHECK(driver.walls->corners.empty());
+}
