@@ -173,3 +173,66 @@ TEST_CASE("linear fields that suit the wall have exact gradients up to it, and s
                 CHECK(std::fabs(s.deviation_rate[i]) < 1e-9 * 1000 * 20);
     }
 }
+
+TEST_CASE("ghosts of a right-angled, moving corner are point reflections") {
+    Random random;
+    const Vec2 gravity(0.5, -9.81), v_w(0.8, -0.3);
+    Particles<2> s = place<2>(lattice<2>({20, 20}, spacing, 0.3, random), spacing);
+    disorder(s, spacing, random);
+    GhostWalls walls = make_walls(tank(20 * spacing, 2));
+    for (Vec2& v : walls.panels.velocity) v = v_w;
+    walls.rebuild(s, spacing, reach, gravity);
+    std::size_t reflected[2] = {0, 0}, expected[2] = {0, 0};
+    for (std::size_t g = 0; g < walls.ghosts.size(); ++g) {
+        const Ghost& ghost = walls.ghosts[g];
+        if (ghost.corner < 0) continue;
+        const std::size_t j = ghost.parent, lane = s.ghost_begin() + g;
+        const Vec2 corner = position(s, j).x() < 10 * spacing ? Vec2(0, 0) : Vec2(20 * spacing, 0);
+        ++reflected[corner.x() > 0];
+        CHECK((position(s, lane) - (2 * corner - position(s, j))).norm() < 1e-14);
+        CHECK((Vec2(s.v[0][lane], s.v[1][lane]) - (2 * v_w - Vec2(s.v[0][j], s.v[1][j]))).norm() < 1e-14);
+        const double rho = s.mass[j] / s.volume[j];
+        CHECK(std::fabs(s.p[lane] - s.p[j] - rho * gravity.dot(position(s, lane) - position(s, j))) < 1e-9);
+        CHECK(s.volume[lane] == s.volume[j]);
+    }
+    for (std::size_t i = 0; i < s.count; ++i)
+        for (const int k : {0, 1}) expected[k] += (position(s, i) - Vec2(k * 20 * spacing, 0)).norm() < reach;
+    CHECK(expected[0] > 15);
+    CHECK(reflected[0] == expected[0]);
+    CHECK(reflected[1] == expected[1]);
+}
+
+TEST_CASE("gradients are mirrored, but for the weight of the water") {
+    Random random;
+    const Vec2 gravity(0.5, -9.81);
+    for (const bool no_slip : {false, true}) {
+        CAPTURE(no_slip);
+        Particles<2> s = place<2>(lattice<2>({20, 20}, spacing, 0.3, random), spacing);
+        disorder(s, spacing, random);
+        Panels panels = tank(20 * spacing, 2);
+        for (Panel& panel : panels.panels) panel.no_slip = no_slip;
+        GhostWalls walls = make_walls(panels);
+        walls.rebuild(s, spacing, reach, gravity);
+        s.grad_p[0][5] = s.grad_p[1][5] = 0;  // too bare to have one
+        for (std::size_t block = 0; block < walls.blocks(); ++block) walls.update_gradients(s, gravity, block);
+        bool bare_seen = false;
+        for (std::size_t g = 0; g < walls.ghosts.size(); ++g) {
+            const Ghost& ghost = walls.ghosts[g];
+            const std::size_t j = ghost.parent, lane = s.ghost_begin() + g;
+            // A free-slip wall along y (the first and the last) turns x round, one along x turns y round, a corner
+            // both.
+            const bool corner = ghost.corner >= 0;
+            const double S[2] = {corner || ghost.panel != 1 ? -1.0 : 1.0, corner || ghost.panel == 1 ? -1.0 : 1.0};
+            const double T[2] = {no_slip ? -1 : S[0], no_slip ? -1 : S[1]};
+            for (std::size_t a = 0; a < 2; ++a) {
+                const double weight = s.mass[j] / s.volume[j] * gravity[static_cast<int>(a)];
+                const double expected = j == 5 ? 0 : weight + S[a] * (s.grad_p[a][j] - weight);
+                CHECK(std::fabs(s.grad_p[a][lane] - expected) < 1e-10);
+                for (std::size_t b = 0; b < 2; ++b)
+                    CHECK(std::fabs(s.grad_v[a][b][lane] - T[a] * s.grad_v[a][b][j] * S[b]) < 1e-12);
+            }
+            bare_seen = bare_seen || j == 5;
+        }
+        CHECK(bare_seen);
+    }
+}
