@@ -27,11 +27,12 @@ void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const 
                 if (is_wet(ghost.panel)) pairs_.push_back({std::uint32_t(g), std::uint32_t(i), ghost.panel});
                 continue;
             }
-            // A corner's ghost loads the panel through which it is seen: the corner's own one of that patch.
+            // A corner's ghost loads the panel through which it is seen: the corner's own one of that patch. Where
+            // sight slips through the corner between the two, the wet one.
             const int entry = walls.visibility.entry_panel(i, g);
-            if (entry < 0) continue;
             for (const int panel : walls.corners[std::size_t(ghost.corner)].panel) {
-                if (is_wet(panel) && walls.patch[std::size_t(panel)] == walls.patch[std::size_t(entry)]) {
+                if (is_wet(panel) &&
+                    (entry < 0 || walls.patch[std::size_t(panel)] == walls.patch[std::size_t(entry)])) {
                     pairs_.push_back({std::uint32_t(g), std::uint32_t(i), panel});
                     break;
                 }
@@ -42,8 +43,6 @@ void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const 
         const auto& list = lists.blocks[block];
         const fluid::LaneRange lanes = lanes_of_block(particles, block);
         for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
-            const auto* cell = walls.grid.at(particles.x[0][i], particles.x[1][i]);
-            if (!cell || !cell->wet) continue;
             const auto from = list.particle[i - lanes.begin], to = list.particle[i - lanes.begin + 1];
             for (auto k = from.open_end; k < to.open_end; ++k)
                 if (list.open[k] >= first_ghost_cluster) visit(i, list.open[k], 0xff);
@@ -109,8 +108,11 @@ void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const f
     vertex_forces.assign(walls.panels.position.size(), Vec2::Zero());
     for (std::size_t k = 0; k < sources_.size(); ++k) {
         const Source& source = sources_[k];
-        const std::size_t parent = walls.ghosts[source.ghost].parent, p = std::size_t(source.panel);
-        const Vec2 x(particles.x[0][parent], particles.x[1][parent]);
+        // A corner's ghost acts at the corner: there the wall velocity that it gives to the fluid is taken.
+        const fluid::Ghost& ghost = walls.ghosts[source.ghost];
+        const std::size_t p = std::size_t(source.panel);
+        const Vec2 x = ghost.corner < 0 ? Vec2(particles.x[0][ghost.parent], particles.x[1][ghost.parent])
+                                        : walls.corners[std::size_t(ghost.corner)].point;
         const double s =
             std::clamp((x - walls.panels.start(p)).dot(walls.panels.tangent[p]) / walls.panels.length[p], 0.0, 1.0);
         vertex_forces[std::size_t(walls.panels.panels[p].first)] += (1 - s) * force_[k];

@@ -23,6 +23,7 @@ void GhostWalls::rebuild(Particles<2>& particles, double spacing, double reach, 
         const Vec2 image = mirror(particles, unsorted_[g]).image;
         image_[0][g] = image.x();
         image_[1][g] = image.y();
+        if (sticks_out(particles, unsorted_[g], image)) grid.look_closely_around(image);
     }
     const auto order = order_.sort(image_, unsorted_.size(), spacing);
     ghosts.resize(unsorted_.size());
@@ -31,6 +32,17 @@ void GhostWalls::rebuild(Particles<2>& particles, double spacing, double reach, 
     particles.resize(particles.count, ghosts.size());
     for (std::size_t block = 0; block < blocks(); ++block) update_state(particles, gravity, block);
     visibility.prepare(particles, panels, grid, ghosts, corners, patch, 0.5 * spacing);
+}
+
+// True if the image lies beyond another side of the body behind the panel.
+bool GhostWalls::sticks_out(const Particles<2>& particles, const Ghost& ghost, const Vec2& image) const {
+    if (ghost.panel < 0) return false;
+    const Vec2 x(particles.x[0][ghost.parent], particles.x[1][ghost.parent]);
+    const PanelGrid::Cell* cell = grid.at(x.x(), x.y());
+    if (!cell || cell->convex_room) return false;
+    const auto panel = std::size_t(ghost.panel);
+    const Vec2 foot = x - (x - panels.start(panel)).dot(panels.normal[panel]) * panels.normal[panel];
+    return PanelGrid::first_crossing(*cell, foot, image, patch[panel]).entry >= 0;
 }
 
 void GhostWalls::collect(const Particles<2>& particles, double spacing, double reach) {

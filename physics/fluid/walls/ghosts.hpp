@@ -58,6 +58,7 @@ class GhostWalls {
     };
     Mirror mirror(const Particles<2>& particles, const Ghost& ghost) const;
     void collect(const Particles<2>& particles, double spacing, double reach);
+    bool sticks_out(const Particles<2>& particles, const Ghost& ghost, const Vec2& image) const;
 
     double least_depth_ = 0;  // ghosts stay at least this far behind the panel [m]
     SpatialOrder<2> order_;

@@ -31,7 +31,7 @@ struct Panels {
     std::vector<Panel> panels;
     std::vector<std::string> names;  // of walls
 
-    std::vector<Joint> joints;             // by find_joints(), once all walls are there
+    std::vector<Joint> joints;  // by find_joints(), once all walls are there
 
     // Derived from positions by update_geometry().
     std::vector<Vec2> tangent, normal;  // unit vectors; the normal points into the fluid

@@ -34,8 +34,9 @@ void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, doubl
     index_.clear();
     nx_ = ny_ = 0;
     if (n == 0) return;
-    origin_ = low - Vec2::Constant(1.001 * reach);
-    high += Vec2::Constant(1.001 * reach);
+    // Ghosts lie within reach of their panel, and who might see one within reach of it.
+    origin_ = low - Vec2::Constant(2.001 * reach);
+    high += Vec2::Constant(2.001 * reach);
     inverse_width_ = 1 / reach;
     nx_ = int((high.x() - origin_.x()) * inverse_width_) + 1;
     ny_ = int((high.y() - origin_.y()) * inverse_width_) + 1;
@@ -55,11 +56,7 @@ void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, doubl
                 const double s = std::clamp((centre - a).dot(panels.tangent[k]), 0.0, panels.length[k]);
                 if ((centre - a - s * panels.tangent[k]).norm() > reach * (1 + 0.7072)) continue;
                 int& cell = index_[std::size_t(iy) * std::size_t(nx_) + std::size_t(ix)];
-                if (cell < 0) {
-                    cell = int(used_++);
-                    if (used_ > cells_.size()) cells_.emplace_back();
-                    cells_[std::size_t(cell)].clear();
-                }
+                if (cell < 0) cell = new_cell();
                 cells_[std::size_t(cell)].add(panels, k, patch[k]);
             }
         }
@@ -85,7 +82,24 @@ const PanelGrid::Cell* PanelGrid::at(double x, double y) const {
     return cell < 0 ? nullptr : &cells_[std::size_t(cell)];
 }
 
-PanelGrid::Crossing PanelGrid::first_crossing(const Cell& cell, const Vec2& a, const Vec2& b) {
+void PanelGrid::look_closely_around(const Vec2& x) {
+    const int cx = int((x.x() - origin_.x()) * inverse_width_), cy = int((x.y() - origin_.y()) * inverse_width_);
+    for (int iy = std::max(0, cy - 1); iy <= std::min(ny_ - 1, cy + 1); ++iy) {
+        for (int ix = std::max(0, cx - 1); ix <= std::min(nx_ - 1, cx + 1); ++ix) {
+            int& cell = index_[std::size_t(iy) * std::size_t(nx_) + std::size_t(ix)];
+            if (cell < 0) cell = new_cell();
+            cells_[std::size_t(cell)].convex_room = false;
+        }
+    }
+}
+
+int PanelGrid::new_cell() {
+    if (used_ == cells_.size()) cells_.emplace_back();
+    cells_[used_].clear();
+    return int(used_++);
+}
+
+PanelGrid::Crossing PanelGrid::first_crossing(const Cell& cell, const Vec2& a, const Vec2& b, int patch_left_out) {
     const std::size_t n = cell.panel.size();
     const double ax = a.x(), ay = a.y(), bx = b.x(), by = b.y();
     constexpr double slack = 1e-9;  // panels overlap by a hair, or sight would slip between two of them
@@ -107,7 +121,7 @@ PanelGrid::Crossing PanelGrid::first_crossing(const Cell& cell, const Vec2& a, c
             along[k] = crosses ? t : 2.0;
         }
         for (std::size_t k = 0; k < m; ++k)
-            if (along[k] < first.along) first = {int(begin + k), along[k]};
+            if (along[k] < first.along && cell.patch[begin + k] != patch_left_out) first = {int(begin + k), along[k]};
     }
     return first;
 }
@@ -152,15 +166,22 @@ bool Visibility::sees(std::size_t i, const PanelGrid::Cell& cell, std::size_t la
     if (is_fluid) return crossing.entry < 0;
     const Ghost& ghost = (*ghosts_)[lane - ghost_begin];
     const auto of = [&](int panel) { return (*patch_)[std::size_t(panel)]; };
+    const auto in_front_of = [&](int k) {
+        const auto panel = std::size_t(k);
+        return (place_[i] - panels_->start(panel)).dot(panels_->normal[panel]) > 0;
+    };
     if (ghost.corner >= 0) {
-        if (crossing.entry < 0) return true;
         const Corner& corner = (*corners_)[std::size_t(ghost.corner)];
-        return of(*entry) == of(corner.panel[0]) || of(*entry) == of(corner.panel[1]);
+        if (!in_front_of(corner.panel[0]) || !in_front_of(corner.panel[1])) return false;
+        return crossing.entry < 0 || of(*entry) == of(corner.panel[0]) || of(*entry) == of(corner.panel[1]);
     }
-    if (crossing.entry >= 0) return of(*entry) == of(ghost.panel);
-    // Past the end of a wall that just stops: seen from its front.
-    const auto panel = std::size_t(ghost.panel);
-    return (place_[i] - panels_->start(panel)).dot(panels_->normal[panel]) > 0;
+    // Past the end of a wall that just stops, a ghost is seen from the wall's front.
+    if (crossing.entry < 0) return in_front_of(ghost.panel);
+    if (of(*entry) != of(ghost.panel)) return false;
+    // The reflected line of sight, from where it enters the wall to the parent.
+    const PanelGrid::Cell* parents = cell_[ghost.parent];
+    const Vec2 foot = place_[i] + crossing.along * (target - place_[i]);
+    return !parents || PanelGrid::first_crossing(*parents, foot, place_[ghost.parent], of(ghost.panel)).entry < 0;
 }
 
 std::uint8_t Visibility::lanes_seen(std::size_t i, std::size_t cluster, std::uint8_t in_reach) const {

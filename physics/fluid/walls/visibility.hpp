@@ -3,7 +3,10 @@
 // - Two fluid particles do not see each other through a panel (the two sides of a thin body).
 // - A ghost that panel k has mirrored is seen by those particles whose line of sight to it enters the wall through k's
 //   smooth patch: every place behind a wall is then seen once, however thin the body and at convex corners too.
-// - A corner's ghost is seen through either of the corner's patches.
+//   The way that the wall reflects this line of sight must lead to the ghost's parent without meeting another patch:
+//   water beyond a plate that stands on a floor is not seen in the floor before it.
+// - A corner's ghost is seen through either of the corner's patches, from in front of both.
+// - A ghost that sticks out of the other side of a thin body is seen by nobody there.
 //
 // Particles that have slid behind a panel by less than half a spacing are treated as being just in front of it.
 #pragma once
@@ -40,16 +43,21 @@ class PanelGrid {
     void build(const Panels& panels, const std::vector<int>& patch, double reach);
     // The cell at x, or null where no panel is within reach.
     const Cell* at(double x, double y) const;
-    // The first panel that the segment from a to b crosses. The ends may lie anywhere.
-    static Crossing first_crossing(const Cell& cell, const Vec2& a, const Vec2& b);
+    // Something near x must be looked at closely, although no panel may be within reach: its cell hides things from
+    // now.
+    void look_closely_around(const Vec2& x);
+    // The first panel that the segment from a to b crosses, panels of one patch left out if wanted. The ends may lie
+    // anywhere.
+    static Crossing first_crossing(const Cell& cell, const Vec2& a, const Vec2& b, int patch_left_out = -1);
 
   private:
+    int new_cell();
     double inverse_width_ = 0;
     Vec2 origin_ = Vec2::Zero();
     int nx_ = 0, ny_ = 0;
-    std::vector<Cell> cells_;   // the first used_ of them; the others keep their memory for the next build
+    std::vector<Cell> cells_;  // the first used_ of them; the others keep their memory for the next build
     std::size_t used_ = 0;
-    std::vector<int> index_;    // nx × ny: which cell, or -1
+    std::vector<int> index_;  // nx × ny: which cell, or -1
 };
 
 class Visibility : public PairFilter<2> {
