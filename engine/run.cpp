@@ -119,8 +119,8 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
     Clock& clock = model->clock;
     try {
         executor.execute([&] { start(*model, scene); });
-        results.write_history_row();
-        results.write_frame();
+        results.history_if_due();
+        results.frame_if_due();
         while (clock.time < clock.end * (1 - 1e-12)) {
             if (interrupt_requested) {
                 outcome = io::RunOutcome::interrupted;
