@@ -37,25 +37,15 @@ std::string describe(const Model& model, const tasks::SickParticle& sick) {
     }
 
     text += "  likely cause: ";
-    switch (sick.diagnosis.ailment) {
-        case fluid::Ailment::left_domain:
-            text += "a wall is missing or has a hole there; close it, enlarge the domain, or set edge = \"open\"";
-            break;
-        case fluid::Ailment::passed_wall:
-        case fluid::Ailment::no_volume:
-        case fluid::Ailment::not_finite:
-        case fluid::Ailment::none:
-            if (fastest > 0.3 * fluid.tait.sound_speed)
-                text += fmt::format(
-                    "the flow reaches {:.3g} m/s, Mach {:.2f}: raise sound_speed to ten times the "
-                    "fastest flow",
-                    fastest, fastest / fluid.tait.sound_speed);
-            else if (model.solid)
-                text += "the coupling is unstable or the step too long: make αs more negative, or lower cfl or ratio";
-            else
-                text += "the step is too long: lower cfl";
-            break;
-    }
+    if (fastest > 0.3 * fluid.tait.sound_speed)  // then water behaves like a gas, and may pass walls that are closed
+        text += fmt::format("the flow reaches {:.3g} m/s, Mach {:.2f}: raise sound_speed to ten times the fastest flow",
+                            fastest, fastest / fluid.tait.sound_speed);
+    else if (sick.diagnosis.ailment == fluid::Ailment::left_domain)
+        text += "a wall is missing or has a hole there; close it, enlarge the domain, or set edge = \"open\"";
+    else if (model.solid)
+        text += "the coupling is unstable or the step too long: make αs more negative, or lower cfl or ratio";
+    else
+        text += "the step is too long: lower cfl";
     return text;
 }
 

@@ -105,6 +105,9 @@ void refuse_water_inside(const io::Scene& scene, const Model& model) {
 }  // namespace
 
 std::unique_ptr<Model> make_model(const io::Scene& scene) {
+    if (!scene.fluid)  // nothing would set the time step
+        throw io::scene_error(scene, "solid", "there is no water in this scene, and a solid alone cannot be run yet",
+                              "add [fluid]");
     auto model = std::make_unique<Model>();
     model->clock.end = scene.end_time;
     if (scene.fluid) model->fluid = make_fluid(scene);

@@ -5,9 +5,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <optional>
+#include <system_error>
 
 #include "engine/diagnosis.hpp"
 #include "engine/listings.hpp"
@@ -98,7 +100,11 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
         options.folder.empty() ? std::filesystem::path("results") / scene.name : options.folder;
     tasks::Executor executor(options.threads);
     std::optional<tasks::Trace> trace;
-    if (!options.trace.empty()) trace.emplace();
+    if (!options.trace.empty()) {
+        trace.emplace();
+        if (!std::ofstream(options.trace))  // known now rather than after the run
+            throw std::system_error(errno, std::generic_category(), "cannot write " + options.trace.string());
+    }
 
     const std::unique_ptr<Model> model = make_model(scene);
     Results results(scene, *model, folder);
