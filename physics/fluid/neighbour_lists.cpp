@@ -47,6 +47,13 @@ void NeighbourSearch<D>::bin(const Particles<D>& particles, double reach) {
         for (std::size_t i = ghost_begin; i < ghost_end; ++i) f(i);
     };
     double high[D];
+    if (fluid_end + particles.ghost_count == 0) {  // an open domain that has run dry
+        cells_.fill(1);
+        origin_.fill(0);
+        cell_start_.assign(2, 0);
+        cell_clusters_.clear();
+        return;
+    }
     for (int d = 0; d < D; ++d) {
         origin_[d] = std::numeric_limits<double>::max();
         high[d] = std::numeric_limits<double>::lowest();

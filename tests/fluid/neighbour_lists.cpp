@@ -236,3 +236,16 @@ TEST_CASE("a filter hides lanes, and only those it names") {
     CHECK(visited(s, lists, 0.2) == expected);
     CHECK(lists.pairs() == number_of_pairs(expected));
 }
+
+TEST_CASE("no particle at all: lists of nothing") {
+    Particles<2> plane;
+    Particles<3> space;
+    plane.resize(0, 0);
+    space.resize(0, 0);
+    NeighbourLists<2> plane_lists{.radius = 1, .skin = 0.1, .blocks = {}};
+    NeighbourLists<3> space_lists{.radius = 1, .skin = 0.1, .blocks = {}};
+    NeighbourSearch<2>().build(plane, plane_lists, nullptr, serial_loop);
+    NeighbourSearch<3>().build(space, space_lists, nullptr, serial_loop);
+    CHECK(plane_lists.pairs() == 0);
+    CHECK(space_lists.pairs() == 0);
+}
