@@ -1,0 +1,257 @@
+// Small scenes that the tests of the engine, of the coupling and of the program share, written as a user would write
+// them, and what it takes to change, read and build them.
+#pragma once
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/listings.hpp"
+#include "engine/model.hpp"
+#include "io/scene_reader.hpp"
+#include "tasks/executor.hpp"
+#include "tests/io/scratch.hpp"
+
+namespace aquagraph::test {
+
+// The benchmark's gate with 560 particles: 20 ms are about a hundred steps. A load computed beforehand is stable while
+// the water's impedance turns the gate round slowly, ρ c Δt < mass per area, Δt being that of a cycle; with particles
+// as coarse as these rubber is too light for that, so the gate is heavy.
+inline const std::string gate = R"(schema_version = 1
+title = "Gate"
+[time]
+end = 0.02
+[domain]
+min = [-0.02, -0.02]
+max = [0.5, 0.3]
+edge = "open"
+[fluid]
+spacing = 0.005
+sound_speed = 30.0
+[[fluid.box]]
+min = [0.0, 0.0]
+max = [0.1, 0.14]
+[[wall]]
+name = "tank"
+points = [[0.0, 0.2], [0.0, 0.0], [0.6, 0.0]]
+[[wall]]
+name = "lip"
+points = [[0.1, 0.079], [0.1, 0.2]]
+[solid]
+name = "gate"
+wet = ["left", "bottom", "right"]
+[solid.box]
+min = [0.1, 0.0]
+max = [0.105, 0.079]
+elements = [1, 10]
+[solid.material]
+law = "neo_hookean"
+density = 8000.0
+youngs_modulus = 8.0e6
+poissons_ratio = 0.49
+[solid.scheme]
+name = "newmark"
+[[solid.clamp]]
+set = "top"
+[[solid.track]]
+name = "tip"
+point = [0.1, 0.0]
+[coupling]
+algorithm = "cps"
+ratio = 1
+[output]
+frame_interval = 0.005
+history_interval = 0.001
+)";
+
+// Two metres of water on an elastic floor, 200 particles.
+inline const std::string plate = R"(schema_version = 1
+title = "Plate"
+[time]
+end = 0.1
+[domain]
+min = [-0.5, -0.5]
+max = [1.5, 2.5]
+[fluid]
+spacing = 0.1
+sound_speed = 50.0
+[[fluid.box]]
+min = [0.0, 0.0]
+max = [1.0, 2.0]
+[[wall]]
+name = "left_side"
+points = [[0.0, 2.2], [0.0, 0.0]]
+[[wall]]
+name = "right_side"
+points = [[1.0, 0.0], [1.0, 2.2]]
+[solid]
+name = "plate"
+static_start = true
+wet = ["top"]
+[solid.box]
+min = [0.0, -0.05]
+max = [1.0, 0.0]
+elements = [20, 2]
+[solid.material]
+density = 2700.0
+youngs_modulus = 67.5e9
+poissons_ratio = 0.34
+[[solid.clamp]]
+set = "left"
+[[solid.clamp]]
+set = "right"
+[[solid.track]]
+name = "mid"
+point = [0.5, -0.025]
+[output]
+frame_interval = 0.02
+)";
+
+// A column of water let go in a tank: no solid.
+inline const std::string column = R"(schema_version = 1
+title = "Column"
+[time]
+end = 0.1
+[domain]
+min = [-0.1, -0.1]
+max = [1.1, 1.1]
+[fluid]
+spacing = 0.02
+sound_speed = 40.0
+[[fluid.box]]
+min = [0.0, 0.0]
+max = [0.3, 0.5]
+[[wall]]
+name = "tank"
+points = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
+[output]
+frame_interval = 0.02
+history_interval = 0.01
+)";
+
+// Water of 1 m by 1 m with a free elastic body in it and nothing else anywhere: half_width by half_height about the
+// middle, both whole numbers of Δx = 25 mm; bigger elements make coarser panels.
+inline std::string surrounded_body(int half_width, int half_height, int columns, int rows) {
+    const auto number = [](int particles) { return std::to_string(0.025 * particles); };
+    const std::string left = number(20 - half_width), right = number(20 + half_width), low = number(20 - half_height),
+                      high = number(20 + half_height);
+    const auto box = [](const std::string& x0, const std::string& y0, const std::string& x1, const std::string& y1) {
+        return "min = [" + x0 + ", " + y0 + "]\nmax = [" + x1 + ", " + y1 + "]\n";
+    };
+    return R"(schema_version = 1
+title = "Body in water"
+[time]
+end = 0.05
+[domain]
+min = [-1.0, -1.0]
+max = [2.0, 2.0]
+[fluid]
+spacing = 0.025
+sound_speed = 30.0
+)" + ("[[fluid.box]]\n" + box("0.0", "0.0", "1.0", low)) +
+           ("[[fluid.box]]\n" + box("0.0", low, left, high)) + ("[[fluid.box]]\n" + box(right, low, "1.0", high)) +
+           ("[[fluid.box]]\n" + box("0.0", high, "1.0", "1.0")) + R"([solid]
+name = "body"
+wet = ["left", "bottom", "right", "top"]
+[solid.box]
+)" + box(left, low, right, high) +
+           "elements = [" + std::to_string(columns) + ", " + std::to_string(rows) + R"(]
+[solid.material]
+density = 1000.0
+youngs_modulus = 1.0e7
+poissons_ratio = 0.3
+)";
+}
+// Two particles thick: what its two sides mirror reaches out of the other side.
+inline const std::string strip = surrounded_body(12, 1, 12, 1);
+inline const std::string coarse_strip = surrounded_body(12, 1, 6, 1);
+
+// An elastic block on its own: no water.
+inline const std::string beam = R"(schema_version = 1
+title = "Beam"
+[time]
+end = 0.01
+[domain]
+min = [0.0, 0.0]
+max = [1.0, 1.0]
+[solid]
+name = "beam"
+[solid.box]
+min = [0.0, 0.0]
+max = [1.0, 0.1]
+elements = [10, 2]
+[solid.material]
+density = 1000.0
+youngs_modulus = 1.0e7
+poissons_ratio = 0.3
+[[solid.clamp]]
+set = "left"
+)";
+
+// `text` with the first `from` replaced. A test that changes nothing would test nothing: throws if `from` is missing.
+inline std::string with(std::string text, std::string_view from, std::string_view to) {
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) throw std::logic_error("the scene holds no '" + std::string(from) + "'");
+    return text.replace(at, from.size(), to);
+}
+
+inline std::string with_coupling(const std::string& text, const std::string& algorithm, int ratio) {
+    return with(text, "algorithm = \"cps\"\nratio = 1\n",
+                "algorithm = \"" + algorithm + "\"\nratio = " + std::to_string(ratio) + "\n");
+}
+
+inline std::string contents(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw std::runtime_error("cannot read " + file.filename().string());
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline std::size_t count(std::string_view text, std::string_view part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size()))
+        ++found;
+    return found;
+}
+
+// A scene built but not run: its parts and the listing of a cycle, to be looked at or run task by task.
+struct Built {
+    ScratchFolder folder;
+    io::Scene scene;
+    std::unique_ptr<engine::Model> model;
+    std::vector<tasks::Task> listing;
+    tasks::Executor executor{2};
+
+    explicit Built(const std::string& text)
+        : scene(io::read_scene(folder.write("scene.toml", text))),
+          model(engine::make_model(scene)),
+          listing(engine::coupling_cycle(*model, scene.coupling)) {}
+
+    void start() {
+        executor.execute([&] { engine::start(*model, scene); });
+    }
+    std::size_t place(const std::string& name) const {
+        for (std::size_t k = 0; k < listing.size(); ++k)
+            if (listing[k].name == name) return k;
+        throw std::out_of_range("no task '" + name + "' in the listing");
+    }
+    bool has(const std::string& name) const {
+        for (const tasks::Task& task : listing)
+            if (task.name == name) return true;
+        return false;
+    }
+    void run(const std::string& name) {
+        executor.execute([&] { listing[place(name)].body(); });
+    }
+    // The fluid's load on the solid as things stand: no step is made.
+    void compute_loads() {
+        for (const char* name : {"neighbour search (step 1)", "wall motion (interface)", "ghosts (interface)",
+                                 "gradients (interface)", "ghost gradients (interface)", "interface loads"})
+            run(name);
+    }
+};
+
+}  // namespace aquagraph::test
