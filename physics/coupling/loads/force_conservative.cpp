@@ -43,6 +43,7 @@ void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const 
         const auto& list = lists.blocks[block];
         const fluid::LaneRange lanes = lanes_of_block(particles, block);
         for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
+            if (!walls.grid.at(particles.x[0][i], particles.x[1][i])) continue;  // no ghost in sight
             const auto from = list.particle[i - lanes.begin], to = list.particle[i - lanes.begin + 1];
             for (auto k = from.open_end; k < to.open_end; ++k)
                 if (list.open[k] >= first_ghost_cluster) visit(i, list.open[k], 0xff);
