@@ -64,7 +64,7 @@ TEST_CASE("the gate arrives as the thesis has it") {
     CHECK(scene.solid->clamps[0].fixed == std::array<bool, 2>{true, true});
     CHECK(scene.solid->wet == std::vector<std::string>{"left", "bottom", "right"});
     CHECK(scene.coupling.step_fraction == 0.8);
-    REQUIRE(scene.comparisons.size() == 8);
+    REQUIRE(scene.comparisons.size() == 10);
     CHECK(scene.comparisons[0].window == std::array<double, 2>{0, 0.161});
     CHECK(scene.comparisons[1].window == std::array<double, 2>{0, 0.4});
     CHECK(scene.comparisons[0].file.is_absolute());
