@@ -32,8 +32,9 @@ std::vector<std::string> toml_blocks(const std::string& markdown) {
 }  // namespace
 
 TEST_CASE("the shipped scenes are read") {
-    for (const char* name : {"gate_2d/scene.toml", "gate_2d/scene_1mm.toml", "gate_2d/scene_thesis.toml",
-                             "hydrostatic_plate/scene.toml"}) {
+    for (const char* name :
+         {"gate_2d/scene.toml", "gate_2d/scene_fast.toml", "gate_2d/scene_1mm.toml", "gate_2d/scene_thesis.toml",
+          "hydrostatic_plate/scene.toml", "hydrostatic_plate/scene_1cm.toml"}) {
         CAPTURE(name);
         CHECK_NOTHROW(io::read_scene(benchmarks / name));
     }
@@ -101,7 +102,7 @@ TEST_CASE("SCENES.md shows every key that the reader knows, and no other") {
         CHECK(manual.find(io::section_markdown(section)) != std::string::npos);
     }
     for (const std::string_view name : io::reserved_names())
-        CHECK(manual.find("`" + std::string(name) + "`") != std::string::npos);
+        CHECK(manual.find(std::string("`").append(name).append("`")) != std::string::npos);
 }
 
 TEST_CASE("the examples of SCENES.md are scenes") {
