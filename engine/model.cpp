@@ -5,8 +5,11 @@
 
 #include "io/scene_reader.hpp"
 #include "physics/fluid/filling.hpp"
+#include "physics/fluid/rebuild.hpp"
 #include "physics/solid/gmsh_mesh.hpp"
 #include "tasks/parallel_loop.hpp"
+#include "tasks/solid_step.hpp"
+#include "tasks/walls.hpp"
 
 namespace aquagraph::engine {
 
@@ -145,7 +148,21 @@ void start(Model& model, const io::Scene& scene) {
         const std::vector<double> no_loads(2 * model.solid->mesh().nodes.size(), 0.0);
         model.solid->solve_static(no_loads, tasks::parallel_loop);
     }
-    if (model.interface) model.interface->surface.take(model.solid->positions(), model.solid->velocities());
+    if (!model.interface) return;
+
+    // The water's load on the solid at t = 0, which the first solve of CPS reads.
+    fluid::Fluid<2>& fluid = *model.fluid;
+    fluid::GhostWalls& walls = *model.walls;
+    coupling::Interface& interface = *model.interface;
+    interface.surface.take(model.solid->positions(), model.solid->velocities());
+    interface.surface.place(walls.panels, 0);
+    rebuild_lists(fluid, &walls, tasks::parallel_loop);
+    interface.load.rebuild(fluid.particles, fluid.lists, walls);
+    for (const tasks::Task& task :
+         {tasks::interface_gradients(fluid, interface), tasks::ghost_gradients(fluid, walls, "start"),
+          tasks::interface_loads(fluid, walls, interface)})
+        task.body();
+    interface.solid_loads = interface.fluid_loads;
 }
 
 std::size_t nearest_node(const solid::Mesh& mesh, const io::Point& point) {

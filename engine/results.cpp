@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "engine/version.hpp"
+#include "io/scene_json.hpp"
 #include "io/scene_reader.hpp"
 #include "io/summary.hpp"
 #include "io/vtk_hdf.hpp"
@@ -44,6 +45,16 @@ std::vector<io::HistoryColumn> history_columns(const io::Scene& scene, const Mod
     return columns;
 }
 
+// An earlier run's frames would stand beside this one's, in no series, and be taken for its own.
+void remove_old_frames(const std::filesystem::path& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        const bool ours = name.starts_with("fluid_") || name.starts_with("solid_");
+        if ((ours && name.ends_with(".hdf")) || name == "fluid.hdf.series" || name == "solid.hdf.series")
+            std::filesystem::remove(entry.path());
+    }
+}
+
 // The next multiple of `interval` after t; rounding must not give t itself again.
 double next_due(double t, double interval) {
     return (std::floor(t / interval * (1 + 1e-12)) + 1) * interval;
@@ -59,6 +70,7 @@ Results::Results(const io::Scene& scene, const Model& model, std::filesystem::pa
       fluid_series_((std::filesystem::create_directories(folder_), folder_ / "fluid.hdf.series")),
       solid_series_(folder_ / "solid.hdf.series"),
       flow_(scene.fluid ? scene.fluid->spacing : 1.0) {
+    remove_old_frames(folder_);
     history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", columns_);
     if (model.solid) {
         for (const io::Track& track : scene.solid->tracks)
@@ -220,7 +232,8 @@ std::vector<io::Comparison> Results::finish(io::RunOutcome outcome, const std::s
 
     nlohmann::json summary;
     summary["version"] = version;
-    summary["scene"] = {{"file", scene_.file.filename().string()}, {"title", scene_.title}, {"text", scene_.text}};
+    summary["scene"] = io::to_json(scene_);  // as resolved
+    summary["scene_file"] = {{"name", scene_.file.filename().string()}, {"text", scene_.text}};
     summary["outcome"] = outcome == io::RunOutcome::finished      ? "finished"
                          : outcome == io::RunOutcome::interrupted ? "interrupted"
                                                                   : "failed";

@@ -142,6 +142,12 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
             std::rethrow_exception(error.cause());
         } catch (const tasks::SickParticle& sick) {
             message = describe(*model, sick);
+        } catch (const solid::ConvergenceError&) {
+            message = fmt::format(
+                "{} (t = {:.6g} s, step {})\n  likely cause: the coupling is unstable, the load grows from "
+                "step to step: make αs more negative, or lower cfl or ratio; a light body in water "
+                "needs ρ0 c0 Δt of a cycle well below its mass per area",
+                error.what(), clock.time, clock.steps);
         } catch (...) {
             message = fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps);
         }

@@ -18,7 +18,7 @@ constexpr std::array<SceneSection, 15> sections{{
     {"", false, true, "Before any table."},
     {"time", false, true, "How long."},
     {"domain", false, true, "Where particles live. Walls and the solid may stand outside it."},
-    {"fluid", false, false, "The water: weakly compressible SPH. Without it the scene is a solid alone."},
+    {"fluid", false, false, "The water: weakly compressible SPH. A scene needs it: a solid alone cannot be run yet."},
     {"fluid.box", true, false,
      "Water at rest, one particle in the middle of every cell of Δx. Boxes may touch, not overlap each other or the "
      "solid."},

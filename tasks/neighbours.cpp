@@ -32,7 +32,7 @@ class NeighbourSearchTask {
     // displacement of particles plus twice that of walls. The coming step is counted in at present speeds.
     bool lists_hold() {
         const auto& particles = fluid_.particles;
-        if (fluid_.rebuilds == 0) return false;
+        if (!built_once_) return false;
         scratch_.resize(fluid_.blocks());
         const Reach reach = reduce_blocks(
             fluid_.blocks(), Reach{},
@@ -65,6 +65,7 @@ class NeighbourSearchTask {
         if (!fluid_.closed) fluid_.removed += remove_outside(particles, fluid_.domain);
         if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
         rebuild_lists(fluid_, walls_, parallel_loop);
+        built_once_ = true;
         if (walls_) built_ = walls_->panels.position;
         if (interface_) interface_->load.rebuild(particles, fluid_.lists, *walls_);
     }
@@ -83,6 +84,7 @@ class NeighbourSearchTask {
     coupling::Interface* interface_;
     const Clock& clock_;
     std::vector<Reach> scratch_;
+    bool built_once_ = false;         // by this task: lists from before the run do not say where walls stood
     std::vector<fluid::Vec2> built_;  // vertices of walls when the lists were built
 };
 

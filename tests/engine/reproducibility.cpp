@@ -94,11 +94,17 @@ TEST_CASE("CPS and CSS agree") {
     }
 }
 
-TEST_CASE("a longer cycle changes little") {
-    const Finished one(with_coupling(gate, "cps", 1)), three(with_coupling(gate, "cps", 3));
-    const double tip = one.results.history().column("tip_x").back(),
-                 tip_of_three = three.results.history().column("tip_x").back();
-    INFO("tip_x ", tip, " m with p = 1, ", tip_of_three, " m with p = 3");
-    CHECK(tip > 0);
-    CHECK(std::fabs(tip_of_three - tip) < 0.05 * tip);
+TEST_CASE("the lag of CPS is its cycle, however many fluid steps that has") {
+    // The solid moves under the load of the cycle's start, so what an error there is belongs to the cycle's length:
+    // three fluid steps of a third of the size give the same cycle and nearly the same gate, three of the full size do
+    // not.
+    const auto tip = [](const std::string& text) { return Finished(text).results.history().column("tip_x").back(); };
+    const double one = tip(with_coupling(gate, "cps", 1)), three_long = tip(with_coupling(gate, "cps", 3)),
+                 three_short =
+                     tip(with(with_coupling(gate, "cps", 3), "ratio = 3", "ratio = 3\nstep_fraction = 0.2667"));
+    INFO("tip_x ", one, " m with p = 1, ", three_short, " m with p = 3 and the same cycle, ", three_long,
+         " m with p = 3");
+    CHECK(one > 0);
+    CHECK(std::fabs(three_short - one) < 0.03 * one);
+    CHECK(std::fabs(three_short - one) < 0.5 * std::fabs(three_long - one));
 }
