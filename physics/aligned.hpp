@@ -21,14 +21,14 @@ struct CacheLineAllocator {
         // Consecutive arrays start 5 lines apart: 13 steps round a page before the pattern repeats nearby.
         static std::atomic<std::size_t> count{0};
         const std::size_t shift = (1 + 5 * count.fetch_add(1, std::memory_order_relaxed) % lines_of_page) * line;
-        auto* const memory = static_cast<std::byte*>(::operator new(n * sizeof(T) + shift, std::align_val_t{line}));
+        auto* const memory = static_cast<std::byte*>(::operator new (n * sizeof(T) + shift, std::align_val_t{line}));
         std::byte* const start = memory + shift;
         *reinterpret_cast<std::byte**>(start - sizeof(std::byte*)) = memory;  // for deallocate
         return reinterpret_cast<T*>(start);
     }
     void deallocate(T* start, std::size_t) {
-        ::operator delete(*reinterpret_cast<std::byte**>(reinterpret_cast<std::byte*>(start) - sizeof(std::byte*)),
-                          std::align_val_t{line});
+        ::operator delete (*reinterpret_cast<std::byte**>(reinterpret_cast<std::byte*>(start) - sizeof(std::byte*)),
+                           std::align_val_t{line});
     }
     template <class U>
     bool operator==(const CacheLineAllocator<U>&) const {
