@@ -1,0 +1,85 @@
+// A body read from a Gmsh file is the body of the same box.
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "tests/engine/results_of_run.hpp"
+
+using namespace aquagraph;
+using namespace aquagraph::test;
+
+namespace {
+
+// The gate of `gate`, 1 × 10 quadrilaterals of four nodes, as Gmsh 4.1 writes it.
+std::string gate_mesh() {
+    constexpr int columns = 1, rows = 10;
+    const auto node = [](int i, int j) { return j * (columns + 1) + i + 1; };
+    std::ostringstream mesh;
+    mesh.precision(17);
+    mesh << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+            "$PhysicalNames\n4\n1 1 \"left\"\n1 2 \"bottom\"\n1 3 \"right\"\n1 4 \"top\"\n$EndPhysicalNames\n"
+            "$Entities\n0 4 1 0\n";
+    for (int side = 1; side <= 4; ++side) mesh << side << " 0.1 0 0 0.105 0.079 0 1 " << side << " 0\n";
+    const int nodes = (columns + 1) * (rows + 1);
+    mesh << "1 0.1 0 0 0.105 0.079 0 0 4 1 2 3 4\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes << "\n2 1 0 "
+         << nodes << "\n";
+    for (int n = 1; n <= nodes; ++n) mesh << n << "\n";
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i <= columns; ++i) mesh << 0.1 + 0.005 * i / columns << " " << 0.079 * j / rows << " 0\n";
+    constexpr int elements = 2 * rows + 2 * columns + rows * columns;
+    mesh << "$EndNodes\n$Elements\n5 " << elements << " 1 " << elements << "\n";
+    int tag = 0;
+    const auto line = [&](int a, int b) { mesh << ++tag << " " << a << " " << b << "\n"; };
+    mesh << "1 1 1 " << rows << "\n";
+    for (int j = 0; j < rows; ++j) line(node(0, j), node(0, j + 1));
+    mesh << "1 2 1 " << columns << "\n";
+    for (int i = 0; i < columns; ++i) line(node(i, 0), node(i + 1, 0));
+    mesh << "1 3 1 " << rows << "\n";
+    for (int j = 0; j < rows; ++j) line(node(columns, j), node(columns, j + 1));
+    mesh << "1 4 1 " << columns << "\n";
+    for (int i = 0; i < columns; ++i) line(node(i, rows), node(i + 1, rows));
+    mesh << "2 1 3 " << rows * columns << "\n";
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i)
+            mesh << ++tag << " " << node(i, j) << " " << node(i + 1, j) << " " << node(i + 1, j + 1) << " "
+                 << node(i, j + 1) << "\n";
+    mesh << "$EndElements\n";
+    return mesh.str();
+}
+
+std::string with_mesh() {
+    const std::string box = "[solid.box]\nmin = [0.1, 0.0]\nmax = [0.105, 0.079]\nelements = [1, 10]\n";
+    return with(with(gate, box, ""), "name = \"gate\"\n", "name = \"gate\"\nmesh = \"gate.msh\"\n");
+}
+
+}  // namespace
+
+TEST_CASE("a gate from a mesh file moves as the gate of a box") {
+    Finished from_box(gate);
+    ScratchFolder folder;
+    folder.write("gate.msh", gate_mesh());
+    engine::RunOptions options;
+    options.folder = folder / "results";
+    options.quiet = true;
+    std::ostringstream out, err;
+    REQUIRE(engine::run(io::read_scene(folder.write("scene.toml", with_mesh())), options, out, err) == engine::success);
+    const io::History a = from_box.results.history(), b = io::read_history(options.folder / "history.csv");
+    REQUIRE(a.rows() == b.rows());
+    // Nodes are numbered otherwise, so sums are rounded otherwise.
+    for (std::size_t k = 0; k < a.rows(); ++k)
+        CHECK(a.column("tip_x")[k] == doctest::Approx(b.column("tip_x")[k]).epsilon(1e-6));
+    CHECK(a.column("tip_x").back() > 1e-3);
+}
+
+TEST_CASE("a mesh without the wet surface is refused with its place in the scene") {
+    ScratchFolder folder;
+    folder.write("gate.msh", gate_mesh());
+    engine::RunOptions options;
+    options.folder = folder / "results";
+    std::ostringstream out, err;
+    const io::Scene scene = io::read_scene(
+        folder.write("scene.toml", with(with_mesh(), "[\"left\", \"bottom\"", "[\"lefft\", \"bottom\"")));
+    CHECK_THROWS_WITH_AS(engine::run(scene, options, out, err), doctest::Contains("no surface 'lefft'"),
+                         io::SceneError);
+    CHECK_FALSE(std::filesystem::exists(options.folder));
+}
