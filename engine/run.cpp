@@ -158,12 +158,20 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
     if (progress) progress->finish();
 
     RunFigures figures{.wall_seconds = seconds(), .threads = executor.threads(), .passes = passes_of(graph)};
-    if (outcome != io::RunOutcome::finished) {
-        results.write_history_row();
-        results.write_frame();
+    std::vector<io::Comparison> comparisons;
+    try {
+        if (outcome != io::RunOutcome::finished) {
+            results.write_history_row();
+            results.write_frame();
+        }
+        comparisons = results.finish(outcome, message, figures);
+        if (trace) trace->write(options.trace.string());
+    } catch (const std::exception& error) {  // a full disk: what had been written before is there
+        if (!message.empty()) err << "aquagraph: " << message << "\n";
+        err << "aquagraph: the end of the run could not be written: " << error.what() << "\n"
+            << "What was written before is in " << folder.string() << "\n";
+        return run_failed;
     }
-    const auto comparisons = results.finish(outcome, message, figures);
-    if (trace) trace->write(options.trace.string());
 
     if (!options.quiet) {
         print_table(out, figures);
