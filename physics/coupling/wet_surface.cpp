@@ -7,7 +7,7 @@
 namespace aquagraph::coupling {
 
 WetSurface::WetSurface(const solid::Mesh& mesh, const std::vector<std::string>& surfaces, const std::string& name,
-                       fluid::Panels& panels)
+                       fluid::Panels<2>& panels)
     : first_vertex_(panels.position.size()), wall_(int(panels.names.size())) {
     panels.names.push_back(name);
     std::map<int, int> vertex_of_node;
@@ -25,8 +25,8 @@ WetSurface::WetSurface(const solid::Mesh& mesh, const std::vector<std::string>& 
         for (const auto& [begin, end, middle] : mesh.surface(surface)) {
             // Edges keep the solid on their left, panels keep the fluid there: walk the other way.
             const int a = vertex(end), m = vertex(middle), b = vertex(begin);
-            panels.panels.push_back({a, m, wall_, false, true});
-            panels.panels.push_back({m, b, wall_, false, true});
+            panels.panels.push_back({{a, m}, wall_, false, true});
+            panels.panels.push_back({{m, b}, wall_, false, true});
         }
     }
     position_.assign(panels.position.begin() + std::ptrdiff_t(first_vertex_), panels.position.end());
@@ -41,7 +41,7 @@ void WetSurface::take(std::span<const double> positions, std::span<const double>
     }
 }
 
-void WetSurface::place(fluid::Panels& panels, double ahead) const {
+void WetSurface::place(fluid::Panels<2>& panels, double ahead) const {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
         panels.position[first_vertex_ + k] = position_[k] + ahead * velocity_[k];
         panels.velocity[first_vertex_ + k] = velocity_[k];

@@ -18,12 +18,12 @@ class WetSurface {
     WetSurface() = default;
     // Adds the panels of these surfaces to `panels`, as one wall. Throws std::invalid_argument for an unknown surface.
     WetSurface(const solid::Mesh& mesh, const std::vector<std::string>& surfaces, const std::string& name,
-               fluid::Panels& panels);
+               fluid::Panels<2>& panels);
 
     // Takes the solid's state, interleaved x and y per node.
     void take(std::span<const double> positions, std::span<const double> velocities);
     // Places the panels' vertices `ahead` seconds after the last exchange.
-    void place(fluid::Panels& panels, double ahead) const;
+    void place(fluid::Panels<2>& panels, double ahead) const;
     // Adds the forces on vertices (one per vertex of `panels`) to nodal forces, interleaved; clears them first.
     void to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) const;
 

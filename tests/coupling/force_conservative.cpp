@@ -134,7 +134,7 @@ TEST_CASE("forces keep their moment on the way from ghosts to nodes, and their p
         disorder(built, Bend{corners ? 0.1 : 0.06});
         built.compute_loads();
         const engine::Model& model = *built.model;
-        const fluid::Panels& panels = model.walls->panels;
+        const fluid::Panels<2>& panels = model.walls->panels;
         REQUIRE((corner_ghosts(model) > 0) == corners);
 
         // Where a ghost's force acts and how fast the wall moves there: as the fluid sees it.
@@ -149,12 +149,12 @@ TEST_CASE("forces keep their moment on the way from ghosts to nodes, and their p
                 velocity = model.walls->corners[std::size_t(ghost.corner)].velocity;
             } else {
                 const auto k = std::size_t(ghost.panel);
-                const double s = (parent - panels.start(k)).dot(panels.tangent[k]) / panels.length[k];
+                const double s = (parent - panels.start(k)).dot(panels.tangent[k]) / panels.measure[k];
                 REQUIRE(s >= 0);
                 REQUIRE(s <= 1);
                 foot = panels.start(k) + s * (panels.end(k) - panels.start(k));
-                velocity = (1 - s) * panels.velocity[std::size_t(panels.panels[k].first)] +
-                           s * panels.velocity[std::size_t(panels.panels[k].second)];
+                velocity = (1 - s) * panels.velocity[std::size_t(panels.panels[k].vertex[0])] +
+                           s * panels.velocity[std::size_t(panels.panels[k].vertex[1])];
             }
             moment -= fluid::cross(foot - moment_at, force);
             power -= force.dot(velocity);

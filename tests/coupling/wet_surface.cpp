@@ -14,7 +14,7 @@ namespace {
 // A body beside a rigid wall whose vertices come first: nothing of the wall may move or be loaded.
 struct BesideWall {
     solid::Mesh mesh = solid::box_mesh({1.0, 0.0}, {1.2, 0.9}, 2, 3);
-    fluid::Panels panels;
+    fluid::Panels<2> panels;
     WetSurface surface;
 
     explicit BesideWall(const std::vector<std::string>& wet = {"left", "bottom", "right", "top"}) {
@@ -52,7 +52,7 @@ TEST_CASE("the wet surface has the water outside of the body") {
         const Vec2 middle = 0.5 * (scene.panels.start(k) + scene.panels.end(k));
         CHECK_FALSE(in_body(middle + 1e-3 * scene.panels.normal[k]));
         CHECK(in_body(middle - 1e-3 * scene.panels.normal[k]));
-        perimeter += scene.panels.length[k];
+        perimeter += scene.panels.measure[k];
     }
     CHECK(perimeter == doctest::Approx(2 * (0.2 + 0.9)).epsilon(1e-12));
     CHECK_FALSE(scene.panels.panels[0].wet);
@@ -64,12 +64,12 @@ TEST_CASE("neighbouring panels of one surface share their vertex") {
     CHECK(scene.surface.vertices() == 7);
     int joints = 0;
     for (const auto& a : scene.panels.panels)
-        for (const auto& b : scene.panels.panels) joints += a.second == b.first;
+        for (const auto& b : scene.panels.panels) joints += a.vertex[1] == b.vertex[0];
     CHECK(joints == 5);
 }
 
 TEST_CASE("an unknown surface is refused with the names that exist") {
-    fluid::Panels panels;
+    fluid::Panels<2> panels;
     const solid::Mesh mesh = solid::box_mesh({0, 0}, {1, 1}, 1, 1);
     CHECK_THROWS_WITH_AS(WetSurface(mesh, {"front"}, "body", panels), doctest::Contains("left"), std::invalid_argument);
 }

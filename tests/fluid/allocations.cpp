@@ -20,7 +20,7 @@ TEST_CASE("the count sees plain and aligned memory") {
 
 TEST_CASE("gradients, ghosts, fluxes and stages allocate nothing") {
     const double spacing = 0.02;
-    Panels panels = tank(0.6, 1);
+    Panels<2> panels = tank(0.6, 1);
     add_body(panels, {0.3, 0.2}, {0.32, 0.3});  // so that masks are needed
     const auto water_cells = cells_where(
         30, 20, spacing, [](const Point<2>& x) { return x[0] < 0.3 || x[0] > 0.32 || x[1] < 0.2 || x[1] > 0.3; });

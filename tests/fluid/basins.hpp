@@ -8,7 +8,7 @@
 
 namespace aquagraph::fluid::test {
 
-inline GhostWalls make_walls(Panels panels) {
+inline GhostWalls make_walls(Panels<2> panels) {
     GhostWalls walls;
     walls.panels = std::move(panels);
     walls.panels.update_geometry();
@@ -17,14 +17,14 @@ inline GhostWalls make_walls(Panels panels) {
 }
 
 // Left, bottom and right wall of a tank whose corner is the origin.
-inline Panels tank(double width, double height) {
-    Panels panels;
+inline Panels<2> tank(double width, double height) {
+    Panels<2> panels;
     panels.add_wall("tank", {{0, height}, {0, 0}, {width, 0}, {width, height}}, false, false);
     return panels;
 }
 
 // A closed rectangular body, water outside.
-inline void add_body(Panels& panels, const Vec2& low, const Vec2& high) {
+inline void add_body(Panels<2>& panels, const Vec2& low, const Vec2& high) {
     panels.add_wall("body", {low, {low.x(), high.y()}, high, {high.x(), low.y()}}, true, false);
 }
 
@@ -41,7 +41,7 @@ std::vector<Point<2>> cells_where(int columns, int rows, double spacing, Wet&& w
 }
 
 // Water at rest at these places, with lists, ghosts and gradients.
-inline Driver<2> settle(const std::vector<Point<2>>& points, double spacing, Panels panels,
+inline Driver<2> settle(const std::vector<Point<2>>& points, double spacing, Panels<2> panels,
                         const FluxParameters& flux = {}) {
     Driver<2> driver(make_fluid<2>(spacing, water, flux));
     driver.fluid.particles = place<2>(points, spacing);

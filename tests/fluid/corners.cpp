@@ -41,7 +41,7 @@ Spread spread(const Driver<2>& driver, Chosen&& chosen) {
 Spread inside() {
     static const Spread found = [] {
         const auto points = cells_where(15, 15, spacing, [](auto) { return true; });
-        Panels far;
+        Panels<2> far;
         far.add_wall("far", {{100, 1}, {100, 0}}, false, false);
         return spread(settle(points, spacing, far),
                       [](const Vec2& x) { return (x - Vec2(7.5, 7.5) * spacing).norm() < 0.1 * spacing; });
@@ -100,7 +100,7 @@ TEST_CASE("round a thick body, convex corners included, every place behind its w
         const auto points = cells_where(44, 42, spacing, [&](const Point<2>& x) {
             return x[0] < 16 * spacing || x[0] > 28 * spacing || x[1] < 16 * spacing || x[1] > 26 * spacing;
         });
-        Panels panels;
+        Panels<2> panels;
         add_body(panels, low, high);
         const Driver<2> driver = settle(points, spacing, panels);
         CHECK(driver.walls->corners.empty());
@@ -134,7 +134,7 @@ TEST_CASE("water on the two sides of a thin body does not mix, and no place coun
             x[0] += left;
             points.push_back(x);
         }
-        Panels panels;
+        Panels<2> panels;
         add_body(panels, {left, bottom}, {right, 2});
         const Driver<2> driver = settle(points, spacing, panels);
         CHECK(driver.walls->corners.empty());
@@ -181,7 +181,7 @@ Driver<2> plate_on_floor(double gap, int width, bool both_sides) {
     const double left = 12 * spacing, right = (12 + width) * spacing, end = (24 + width) * spacing;
     const auto points = cells_where(24 + width, 20, spacing,
                                     [&](const Point<2>& x) { return x[0] < left || (both_sides && x[0] > right); });
-    Panels panels = tank(end, 2);
+    Panels<2> panels = tank(end, 2);
     add_body(panels, {left, gap * spacing}, {right, 2});
     return settle(points, spacing, panels);
 }
@@ -233,7 +233,7 @@ TEST_CASE("the ghosts of a thin plate's far side are seen nowhere on its near si
             const double left = columns * spacing, right = (columns + width) * spacing;
             const auto points = cells_where(2 * columns + width, 16, spacing,
                                             [&](const Point<2>& x) { return x[0] < left || x[0] > right; });
-            Panels panels;
+            Panels<2> panels;
             add_body(panels, {left, -1}, {right, 2});
             const Driver<2> driver = settle(points, spacing, panels);
             const Spread all = spread(driver, [&](const Vec2& x) {
@@ -252,7 +252,7 @@ TEST_CASE("a body does not touch itself, however thin") {
     std::vector<Vec2> points;
     for (int k = 0; k <= 100; ++k) points.push_back({left, 0.3 + 0.01 * k});
     for (int k = 100; k >= 0; --k) points.push_back({left + thickness, 0.3 + 0.01 * k});
-    Panels panels;
+    Panels<2> panels;
     panels.add_wall("plate", points, true, false);
     const auto cells = cells_where(24, 20, spacing, [](const Point<2>&) { return true; });
     const Driver<2> driver = settle(cells, spacing, panels);

@@ -43,8 +43,8 @@ class Driver {
     explicit Driver(Fluid<D> fluid) : fluid(std::move(fluid)) {}
 
     Fluid<D> fluid;
-    std::optional<GhostWalls> walls;                          // 2D only
-    std::function<void(Panels& panels, double time)> motion;  // places vertices and sets their velocities
+    std::optional<GhostWalls> walls;                             // 2D only
+    std::function<void(Panels<2>& panels, double time)> motion;  // places vertices and sets their velocities
     double time = 0;
 
     // Order, ghosts and lists.

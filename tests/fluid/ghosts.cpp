@@ -21,8 +21,8 @@ struct SlantedWall {
     Vec2 n = Vec2(-0.6, 0.8), t = Vec2(0.8, 0.6), origin = Vec2(0.3, -0.2);
     double length = 3;
 
-    Panels panels(bool no_slip) const {
-        Panels made;
+    Panels<2> panels(bool no_slip) const {
+        Panels<2> made;
         std::vector<Vec2> points;
         for (const double s : {0.0, 0.9, 1.7, length}) points.push_back(origin + s * t);
         made.add_wall("slant", points, false, no_slip);
@@ -209,8 +209,8 @@ TEST_CASE("gradients are mirrored, but for the weight of the water") {
         CAPTURE(no_slip);
         Particles<2> s = place<2>(lattice<2>({20, 20}, spacing, 0.3, random), spacing);
         disorder(s, spacing, random);
-        Panels panels = tank(20 * spacing, 2);
-        for (Panel& panel : panels.panels) panel.no_slip = no_slip;
+        Panels<2> panels = tank(20 * spacing, 2);
+        for (Panel<2>& panel : panels.panels) panel.no_slip = no_slip;
         GhostWalls walls = make_walls(panels);
         walls.rebuild(s, spacing, reach, gravity);
         s.grad_p[0][5] = s.grad_p[1][5] = 0;  // too bare to have one

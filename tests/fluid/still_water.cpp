@@ -22,7 +22,7 @@ Driver<2> still_tank(const Vec2& travel) {
         for (int d = 0; d < 2; ++d) s.v[static_cast<std::size_t>(d)][i] = travel[d];
     driver.walls = make_walls(tank(width, 1.5 * depth));
     const std::vector<Vec2> home = driver.walls->panels.position;
-    driver.motion = [home, travel](Panels& panels, double time) {
+    driver.motion = [home, travel](Panels<2>& panels, double time) {
         for (std::size_t k = 0; k < home.size(); ++k) {
             panels.position[k] = home[k] + time * travel;
             panels.velocity[k] = travel;

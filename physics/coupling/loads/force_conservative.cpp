@@ -115,9 +115,9 @@ void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const f
         const Vec2 x = ghost.corner < 0 ? Vec2(particles.x[0][ghost.parent], particles.x[1][ghost.parent])
                                         : walls.corners[std::size_t(ghost.corner)].point;
         const double s =
-            std::clamp((x - walls.panels.start(p)).dot(walls.panels.tangent[p]) / walls.panels.length[p], 0.0, 1.0);
-        vertex_forces[std::size_t(walls.panels.panels[p].first)] += (1 - s) * force_[k];
-        vertex_forces[std::size_t(walls.panels.panels[p].second)] += s * force_[k];
+            std::clamp((x - walls.panels.start(p)).dot(walls.panels.tangent[p]) / walls.panels.measure[p], 0.0, 1.0);
+        vertex_forces[std::size_t(walls.panels.panels[p].vertex[0])] += (1 - s) * force_[k];
+        vertex_forces[std::size_t(walls.panels.panels[p].vertex[1])] += s * force_[k];
     }
 }
 

@@ -56,7 +56,7 @@ void GhostWalls::collect(const Particles<2>& particles, double spacing, double r
             const auto panel = std::size_t(k);
             const Vec2 from = x - panels.start(panel);
             const double d = from.dot(panels.normal[panel]), s = from.dot(panels.tangent[panel]);
-            if (d <= -tolerance || d >= reach || s < 0 || s >= panels.length[panel]) continue;
+            if (d <= -tolerance || d >= reach || s < 0 || s >= panels.measure[panel]) continue;
             if (!cell->convex_room && d > 0) {
                 // Something between the particle and the foot of its perpendicular hides the panel from it.
                 const Vec2 foot = x - (d - 1e-6 * spacing) * panels.normal[panel];
@@ -94,12 +94,12 @@ GhostWalls::Mirror GhostWalls::mirror(const Particles<2>& particles, const Ghost
         return m;
     }
     const auto k = std::size_t(ghost.panel);
-    const Panel& panel = panels.panels[k];
+    const Panel<2>& panel = panels.panels[k];
     const Vec2& n = panels.normal[k];
     const Vec2 from = x - panels.start(k);
-    const double s = std::clamp(from.dot(panels.tangent[k]) / panels.length[k], 0.0, 1.0);
-    const Vec2 &v_first = panels.velocity[std::size_t(panel.first)],
-               &v_second = panels.velocity[std::size_t(panel.second)];
+    const double s = std::clamp(from.dot(panels.tangent[k]) / panels.measure[k], 0.0, 1.0);
+    const Vec2 &v_first = panels.velocity[std::size_t(panel.vertex[0])],
+               &v_second = panels.velocity[std::size_t(panel.vertex[1])];
     m.wall_velocity = (1 - s) * v_first + s * v_second;
     m.S = Eigen::Matrix2d::Identity() - 2 * n * n.transpose();
     m.T = panel.no_slip ? Eigen::Matrix2d(-Eigen::Matrix2d::Identity()) : m.S;
@@ -155,7 +155,7 @@ std::size_t GhostWalls::hold_back(Particles<2>& particles, double spacing) const
         const std::size_t j = ghost.parent;
         const Vec2 from = Vec2(particles.x[0][j], particles.x[1][j]) - panels.start(k);
         const double d = from.dot(panels.normal[k]), s = from.dot(panels.tangent[k]);
-        if (d >= 0 || d < -0.5 * spacing || s < 0 || s > panels.length[k]) continue;
+        if (d >= 0 || d < -0.5 * spacing || s < 0 || s > panels.measure[k]) continue;
         const Vec2 v = Vec2(particles.v[0][j], particles.v[1][j]) - mirror(particles, ghost).wall_velocity;
         const Vec2 back = (1e-3 * spacing - d) * panels.normal[k],
                    slower = std::max(0.0, -v.dot(panels.normal[k])) * panels.normal[k];
@@ -175,7 +175,7 @@ Escape GhostWalls::deepest(const Particles<2>& particles) const {
         const auto k = std::size_t(ghost.panel);
         const Vec2 from = Vec2(particles.x[0][ghost.parent], particles.x[1][ghost.parent]) - panels.start(k);
         const double depth = -from.dot(panels.normal[k]), s = from.dot(panels.tangent[k]);
-        if (s < 0 || s > panels.length[k]) continue;
+        if (s < 0 || s > panels.measure[k]) continue;
         if (depth > escape.depth) escape = {ghost.parent, depth, ghost.panel};
     }
     return escape;

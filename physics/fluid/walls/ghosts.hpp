@@ -22,7 +22,7 @@ struct Escape {
 
 class GhostWalls {
   public:
-    Panels panels;
+    Panels<2> panels;
     std::vector<Ghost> ghosts;
     std::vector<Corner> corners;
     std::vector<int> patch;

@@ -12,18 +12,18 @@ void PanelGrid::Cell::clear() {
     convex_room = wet = false;
 }
 
-void PanelGrid::Cell::add(const Panels& panels, std::size_t k, int patch_of_k) {
+void PanelGrid::Cell::add(const Panels<2>& panels, std::size_t k, int patch_of_k) {
     panel.push_back(int(k));
     patch.push_back(patch_of_k);
     x.push_back(panels.start(k).x());
     y.push_back(panels.start(k).y());
     tx.push_back(panels.tangent[k].x());
     ty.push_back(panels.tangent[k].y());
-    length.push_back(panels.length[k]);
+    length.push_back(panels.measure[k]);
     wet = wet || panels.panels[k].wet;
 }
 
-void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, double reach) {
+void PanelGrid::build(const Panels<2>& panels, const std::vector<int>& patch, double reach) {
     const std::size_t n = panels.panels.size();
     Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
     for (std::size_t k = 0; k < n; ++k) {
@@ -53,7 +53,7 @@ void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, doubl
             for (int ix = x0; ix <= x1; ++ix) {
                 // A long slanted panel passes far from most cells of its bounding box.
                 const Vec2 centre = origin_ + Vec2(ix + 0.5, iy + 0.5) * reach;
-                const double s = std::clamp((centre - a).dot(panels.tangent[k]), 0.0, panels.length[k]);
+                const double s = std::clamp((centre - a).dot(panels.tangent[k]), 0.0, panels.measure[k]);
                 if ((centre - a - s * panels.tangent[k]).norm() > reach * (1 + 0.7072)) continue;
                 int& cell = index_[std::size_t(iy) * std::size_t(nx_) + std::size_t(ix)];
                 if (cell < 0) cell = new_cell();
@@ -69,7 +69,7 @@ void PanelGrid::build(const Panels& panels, const std::vector<int>& patch, doubl
             const auto panel = std::size_t(c.panel[k]);
             for (const int other : c.panel)
                 for (const Vec2& x : {panels.start(std::size_t(other)), panels.end(std::size_t(other))})
-                    if ((x - panels.start(panel)).dot(panels.normal[panel]) < -1e-9 * panels.length[panel])
+                    if ((x - panels.start(panel)).dot(panels.normal[panel]) < -1e-9 * panels.measure[panel])
                         c.convex_room = false;
         }
     }
@@ -126,7 +126,7 @@ PanelGrid::Crossing PanelGrid::first_crossing(const Cell& cell, const Vec2& a, c
     return first;
 }
 
-void Visibility::prepare(const Particles<2>& particles, const Panels& panels, const PanelGrid& grid,
+void Visibility::prepare(const Particles<2>& particles, const Panels<2>& panels, const PanelGrid& grid,
                          const std::vector<Ghost>& ghosts, const std::vector<Corner>& corners,
                          const std::vector<int>& patch, double tolerance) {
     particles_ = &particles;
@@ -147,7 +147,7 @@ void Visibility::prepare(const Particles<2>& particles, const Panels& panels, co
             const auto panel = std::size_t(k);
             const Vec2 from = x - panels.start(panel);
             const double d = from.dot(panels.normal[panel]), s = from.dot(panels.tangent[panel]);
-            if (d < in_front && d > -tolerance && s >= 0 && s <= panels.length[panel])
+            if (d < in_front && d > -tolerance && s >= 0 && s <= panels.measure[panel])
                 x += (in_front - d) * panels.normal[panel];
         }
     }

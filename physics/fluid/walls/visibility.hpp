@@ -11,7 +11,7 @@
 // Particles that have slid behind a panel by less than half a spacing are treated as being just in front of it.
 #pragma once
 #include "physics/fluid/neighbour_lists.hpp"
-#include "physics/fluid/walls/panels.hpp"
+#include "physics/fluid/walls/corners.hpp"
 
 namespace aquagraph::fluid {
 
@@ -21,7 +21,7 @@ struct Ghost {
     std::int32_t corner = -1;  // … through this corner
 };
 
-// Panels near a place, in the form that the sight test reads: one entry per panel within reach of the cell.
+// Panels<2> near a place, in the form that the sight test reads: one entry per panel within reach of the cell.
 class PanelGrid {
   public:
     struct Cell {
@@ -32,7 +32,7 @@ class PanelGrid {
         bool wet = false;          // some panel is wet
 
         void clear();
-        void add(const Panels& panels, std::size_t k, int patch_of_k);
+        void add(const Panels<2>& panels, std::size_t k, int patch_of_k);
     };
     struct Crossing {
         int entry = -1;    // index into the cell's arrays; -1: the line of sight meets no panel
@@ -40,7 +40,7 @@ class PanelGrid {
     };
 
     // Registers every panel in the cells within `reach` of it.
-    void build(const Panels& panels, const std::vector<int>& patch, double reach);
+    void build(const Panels<2>& panels, const std::vector<int>& patch, double reach);
     // The cell at x, or null where no panel is within reach.
     const Cell* at(double x, double y) const;
     // Something near x must be looked at closely, although no panel may be within reach: its cell hides things from
@@ -63,7 +63,7 @@ class PanelGrid {
 class Visibility : public PairFilter<2> {
   public:
     // Prepares for the particles and ghosts as they stand. The arguments must outlive the last call of lanes_seen.
-    void prepare(const Particles<2>& particles, const Panels& panels, const PanelGrid& grid,
+    void prepare(const Particles<2>& particles, const Panels<2>& panels, const PanelGrid& grid,
                  const std::vector<Ghost>& ghosts, const std::vector<Corner>& corners, const std::vector<int>& patch,
                  double tolerance);
     bool sees_everything(std::size_t i) const override;
@@ -76,7 +76,7 @@ class Visibility : public PairFilter<2> {
   private:
     bool sees(std::size_t i, const PanelGrid::Cell& cell, std::size_t lane, int* entry) const;
     const Particles<2>* particles_ = nullptr;
-    const Panels* panels_ = nullptr;
+    const Panels<2>* panels_ = nullptr;
     const PanelGrid* grid_ = nullptr;
     const std::vector<Ghost>* ghosts_ = nullptr;
     const std::vector<Corner>* corners_ = nullptr;
