@@ -14,7 +14,7 @@ constexpr ValueRange any{};
 constexpr ValueRange positive{0, inf, true, true};
 constexpr ValueRange at_least_one{1, inf, false, true};
 
-constexpr std::array<SceneSection, 15> sections{{
+constexpr auto sections = std::to_array<SceneSection>({
     {"", false, true, "Before any table."},
     {"time", false, true, "How long."},
     {"domain", false, true, "Where particles live. Walls and the solid may stand outside it."},
@@ -34,10 +34,10 @@ constexpr std::array<SceneSection, 15> sections{{
     {"coupling", false, false, "How fluid and solid wait for each other. Only where the scene has both."},
     {"output", false, false, "What is written, and how often."},
     {"compare", true, false, "Reference curves: drawn in the report, and measured against unless `error = false`."},
-}};
+});
 
 using K = KeyKind;
-constexpr std::array<SceneKey, 60> keys{{
+constexpr auto keys = std::to_array<SceneKey>({
     {"", "schema_version", K::integer, true, "", {1, 1, false, false}, "", "", "version of this layout"},
     {"", "title", K::text, false, "", any, "", "name of the scene", "one line for the report"},
     {"", "gravity", K::point, false, "m/s²", any, "", "[0, -9.81]", "acceleration of everything"},
@@ -143,13 +143,10 @@ constexpr std::array<SceneKey, 60> keys{{
     {"compare", "value_scale", K::number, false, "", any, "", "1", "makes the column's unit of the second"},
     {"compare", "value_offset", K::number, false, "", any, "", "0", "added after the scale, in the column's unit"},
     {"compare", "error", K::boolean, false, "", any, "", "true", "false: drawn only"},
-}};
+});
 
-constexpr std::size_t key_count = static_cast<std::size_t>(
-    std::find_if(keys.begin(), keys.end(), [](const SceneKey& k) { return k.name.empty(); }) - keys.begin());
-
-constexpr std::array<std::string_view, 10> reserved{"time",   "step", "fluid",     "solid", "force",
-                                                    "energy", "all",  "interface", "total", "particles"};
+constexpr auto reserved = std::to_array<std::string_view>(
+    {"time", "step", "fluid", "solid", "force", "energy", "all", "interface", "total", "particles"});
 
 std::string kind_text(const SceneKey& key) {
     switch (key.kind) {
@@ -210,7 +207,7 @@ std::span<const SceneSection> scene_sections() {
     return sections;
 }
 std::span<const SceneKey> scene_keys() {
-    return std::span(keys).first(key_count);
+    return keys;
 }
 std::span<const std::string_view> reserved_names() {
     return reserved;
