@@ -29,7 +29,8 @@ std::string duration(double seconds) {
 }
 
 // Wall-clock time of one evaluation of all rates: the median of a few.
-double time_evaluation(fluid::Fluid<2>& fluid, tasks::Executor& executor) {
+template <int D>
+double time_evaluation(fluid::Fluid<D>& fluid, tasks::Executor& executor) {
     std::array<double, 5> times{};
     for (double& time : times) {
         const auto begin = std::chrono::steady_clock::now();
@@ -48,14 +49,13 @@ double time_evaluation(fluid::Fluid<2>& fluid, tasks::Executor& executor) {
     return times[times.size() / 2];
 }
 
-}  // namespace
-
-void check(const io::Scene& scene, int threads, std::ostream& out) {
+template <int D>
+void check_in(const io::Scene& scene, int threads, std::ostream& out) {
     tasks::Executor executor(threads);
-    const std::unique_ptr<Model> model = make_model(scene);
+    const std::unique_ptr<Model<D>> model = make_model<D>(scene);
     out << scene.title << "\n";
     if (model->fluid) {
-        fluid::Fluid<2>& fluid = *model->fluid;
+        fluid::Fluid<D>& fluid = *model->fluid;
         executor.execute([&] { rebuild_lists(fluid, model->walls ? &*model->walls : nullptr, tasks::parallel_loop); });
         fluid::StepLimits limits;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
@@ -90,6 +90,12 @@ void check(const io::Scene& scene, int threads, std::ostream& out) {
         out << fmt::format("run time   about {} on {} threads of this machine\n",
                            duration(steps * fluid::stages * evaluation / pass_share), executor.threads());
     }
+}
+
+}  // namespace
+
+void check(const io::Scene& scene, int threads, std::ostream& out) {
+    scene.dimension == 3 ? check_in<3>(scene, threads, out) : check_in<2>(scene, threads, out);
 }
 
 }  // namespace aquagraph::engine

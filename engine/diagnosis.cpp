@@ -1,18 +1,39 @@
 #include "engine/diagnosis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace aquagraph::engine {
 
-std::string describe(const Model& model, const tasks::SickParticle& sick) {
-    const fluid::Fluid<2>& fluid = *model.fluid;
+namespace {
+
+template <int D>
+std::array<double, D> at(const fluid::Vectors<D>& vectors, std::size_t i) {
+    std::array<double, D> one;
+    for (std::size_t d = 0; d < D; ++d) one[d] = vectors[d][i];
+    return one;
+}
+
+template <int D>
+double length(const std::array<double, D>& vector) {
+    double squares = 0;
+    for (const double component : vector) squares += component * component;
+    return std::sqrt(squares);
+}
+
+}  // namespace
+
+template <int D>
+std::string describe(const Model<D>& model, const tasks::SickParticle& sick) {
+    const fluid::Fluid<D>& fluid = *model.fluid;
     const auto& s = fluid.particles;
     const auto line = [&](std::size_t i) {
-        return fmt::format("particle {:6d}  x ({:.6g}, {:.6g}) m  v ({:.4g}, {:.4g}) m/s  ρ {:.5g} kg/m³  p {:.4g} Pa",
-                           s.id[i], s.x[0][i], s.x[1][i], s.v[0][i], s.v[1][i],
+        return fmt::format("particle {:6d}  x ({:.6g}) m  v ({:.4g}) m/s  ρ {:.5g} kg/m³  p {:.4g} Pa", s.id[i],
+                           fmt::join(at<D>(s.x, i), ", "), fmt::join(at<D>(s.v, i), ", "),
                            fluid.tait.reference_density + s.deviation[i], s.p[i]);
     };
     const std::size_t i = sick.diagnosis.particle;
@@ -23,7 +44,9 @@ std::string describe(const Model& model, const tasks::SickParticle& sick) {
     std::vector<std::pair<double, std::size_t>> around;
     for (std::size_t j = 0; j < s.count; ++j) {
         if (j == i) continue;
-        const double r = std::hypot(s.x_built[0][j] - s.x_built[0][i], s.x_built[1][j] - s.x_built[1][i]);
+        std::array<double, D> away;
+        for (std::size_t d = 0; d < D; ++d) away[d] = s.x_built[d][j] - s.x_built[d][i];
+        const double r = length<D>(away);
         if (r < fluid.kernel.radius()) around.emplace_back(r, j);
     }
     std::sort(around.begin(), around.end());
@@ -32,7 +55,7 @@ std::string describe(const Model& model, const tasks::SickParticle& sick) {
     for (std::size_t k = 0; k < std::min<std::size_t>(5, around.size()); ++k)
         text += "    " + line(around[k].second) + "\n";
     for (std::size_t j = 0; j < s.count; ++j) {
-        const double v = std::hypot(s.v[0][j], s.v[1][j]);
+        const double v = length<D>(at<D>(s.v, j));
         if (std::isfinite(v)) fastest = std::max(fastest, v);
     }
 
@@ -48,5 +71,8 @@ std::string describe(const Model& model, const tasks::SickParticle& sick) {
         text += "the step is too long: lower cfl";
     return text;
 }
+
+template std::string describe(const Model<2>&, const tasks::SickParticle&);
+template std::string describe(const Model<3>&, const tasks::SickParticle&);
 
 }  // namespace aquagraph::engine

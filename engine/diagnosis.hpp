@@ -8,6 +8,7 @@
 namespace aquagraph::engine {
 
 // Time, ids, positions, neighbours and the likely cause, as a few lines of text.
-std::string describe(const Model& model, const tasks::SickParticle& sick);
+template <int D>
+std::string describe(const Model<D>& model, const tasks::SickParticle& sick);
 
 }  // namespace aquagraph::engine

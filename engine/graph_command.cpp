@@ -27,12 +27,18 @@ bool render(const std::filesystem::path& text, const std::filesystem::path& pict
     return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+template <int D>
+std::vector<tasks::Task> listing_of(const io::Scene& scene) {
+    const std::unique_ptr<Model<D>> model = make_model<D>(scene);
+    std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
+    for (tasks::Task& task : result_tasks<D>(nullptr)) listing.push_back(std::move(task));
+    return listing;  // to be looked at, not run: the model is gone
+}
+
 }  // namespace
 
 void draw_graph(const io::Scene& scene, const std::filesystem::path& file, std::ostream& out) {
-    const std::unique_ptr<Model> model = make_model(scene);
-    std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
-    for (tasks::Task& task : result_tasks(nullptr)) listing.push_back(std::move(task));
+    const std::vector<tasks::Task> listing = scene.dimension == 3 ? listing_of<3>(scene) : listing_of<2>(scene);
     io::write_file_atomically(file, tasks::to_dot(listing, {.title = scene.title}));
     out << listing.size() << " tasks, " << tasks::derive_edges(listing).size() << " edges: " << file.string() << "\n";
     const std::filesystem::path picture = std::filesystem::path(file).replace_extension(".svg");

@@ -27,9 +27,10 @@ namespace {
 
 using tasks::Task;
 
+template <int D>
 class Listing {
   public:
-    explicit Listing(Model& model) : model_(model) {}
+    explicit Listing(Model<D>& model) : model_(model) {}
 
     void group(const std::string& name) { group_ = name; }
     void add(Task task) {
@@ -39,7 +40,7 @@ class Listing {
 
     // One step of the fluid; `label` tells the steps of a cycle apart.
     void fluid_step(const std::string& label) {
-        fluid::Fluid<2>& fluid = *model_.fluid;
+        fluid::Fluid<D>& fluid = *model_.fluid;
         group(label + ", lists");
         coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
         fluid::GhostWalls* walls = model_.walls ? &*model_.walls : nullptr;
@@ -49,24 +50,29 @@ class Listing {
             group(label + ", " + name);
             boundary(fluid::stage_time[stage], name);
             add(tasks::gradients(fluid, name));
-            if (walls) add(tasks::ghost_gradients(fluid, *walls, name));
+            if constexpr (D == 2)
+                if (walls) add(tasks::ghost_gradients(fluid, *walls, name));
             add(tasks::fluxes(fluid, name));
             add(tasks::runge_kutta_stage(fluid, model_.clock, stage));
         }
         group(label + ", end");
-        if (walls) add(tasks::wall_contact(fluid, *walls, label));
+        if constexpr (D == 2)
+            if (walls) add(tasks::wall_contact(fluid, *walls, label));
         add(tasks::advance_clock(model_.clock, label));
         add(tasks::examine(fluid, label));
     }
 
     // Walls and ghosts at `fraction` of the present step.
     void boundary(double fraction, const std::string& label) {
-        if (!model_.walls) return;
-        if (model_.interface) add(tasks::wall_motion(*model_.walls, *model_.interface, model_.clock, fraction, label));
-        add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
+        if constexpr (D == 2) {
+            if (!model_.walls) return;
+            if (model_.interface)
+                add(tasks::wall_motion(*model_.walls, *model_.interface, model_.clock, fraction, label));
+            add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
+        }
     }
 
-    void loads() {
+    void loads() requires(D == 2) {
         boundary(0, "interface");
         add(tasks::interface_gradients(*model_.fluid, *model_.interface));
         add(tasks::ghost_gradients(*model_.fluid, *model_.walls, "interface"));
@@ -76,15 +82,16 @@ class Listing {
     std::vector<Task> take() { return std::move(tasks_); }
 
   private:
-    Model& model_;
+    Model<D>& model_;
     std::string group_;
     std::vector<Task> tasks_;
 };
 
 }  // namespace
 
-std::vector<Task> coupling_cycle(Model& model, const io::CouplingScene& coupling) {
-    Listing listing(model);
+template <int D>
+std::vector<Task> coupling_cycle(Model<D>& model, const io::CouplingScene& coupling) {
+    Listing<D> listing(model);
     const bool coupled = model.interface.has_value();
     const bool cps = coupled && coupling.algorithm == io::CouplingAlgorithm::cps;
     const int p = coupled ? coupling.ratio : 1;
@@ -98,14 +105,19 @@ std::vector<Task> coupling_cycle(Model& model, const io::CouplingScene& coupling
         if (!cps) listing.add(tasks::time_step(*model.fluid, model.clock, {.first_of_cycle = step == 1}, label));
         listing.fluid_step(label);
     }
-    if (!coupled) return listing.take();
-
-    listing.group("exchange");
-    listing.loads();
-    listing.add(tasks::newton_solve(*model.solid, *model.interface, model.clock,
-                                    cps ? tasks::LoadsOf::last_exchange : tasks::LoadsOf::this_cycle));
-    listing.add(tasks::exchange(*model.solid, *model.interface, model.clock));
+    if constexpr (D == 2) {
+        if (coupled) {
+            listing.group("exchange");
+            listing.loads();
+            listing.add(tasks::newton_solve(*model.solid, *model.interface, model.clock,
+                                            cps ? tasks::LoadsOf::last_exchange : tasks::LoadsOf::this_cycle));
+            listing.add(tasks::exchange(*model.solid, *model.interface, model.clock));
+        }
+    }
     return listing.take();
 }
+
+template std::vector<Task> coupling_cycle(Model<2>&, const io::CouplingScene&);
+template std::vector<Task> coupling_cycle(Model<3>&, const io::CouplingScene&);
 
 }  // namespace aquagraph::engine

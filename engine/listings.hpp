@@ -9,6 +9,7 @@ namespace aquagraph::engine {
 
 // The cycle of the scene's algorithm: p fluid steps and one solid step; without a solid, one fluid step.
 // Results are added by the caller at the end (engine/results.hpp).
-std::vector<tasks::Task> coupling_cycle(Model& model, const io::CouplingScene& coupling);
+template <int D>
+std::vector<tasks::Task> coupling_cycle(Model<D>& model, const io::CouplingScene& coupling);
 
 }  // namespace aquagraph::engine

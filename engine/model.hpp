@@ -13,8 +13,10 @@
 
 namespace aquagraph::engine {
 
+// Solids, and with them the interface, are two-dimensional so far.
+template <int D>
 struct Model {
-    std::optional<fluid::Fluid<2>> fluid;
+    std::optional<fluid::Fluid<D>> fluid;
     std::optional<fluid::GhostWalls> walls;
     std::optional<solid::Solver> solid;
     std::optional<coupling::Interface> interface;
@@ -24,15 +26,15 @@ struct Model {
 // Throws io::SceneError for what only shows once meshes are read: a set that does not exist, water inside the solid.
 // The solid's static start is not computed yet (it costs time): start() does.
 // By pointer, since tasks keep references to the parts.
-std::unique_ptr<Model> make_model(const io::Scene& scene);
+template <int D>
+std::unique_ptr<Model<D>> make_model(const io::Scene& scene);
 
 // Static equilibrium of the solid where the scene asks for it, first loads, first exchange.
-void start(Model& model, const io::Scene& scene);
-
-// The node that a track follows: the nearest to its point in the reference configuration.
-std::size_t nearest_node(const solid::Mesh& mesh, const io::Point& point);
+template <int D>
+void start(Model<D>& model, const io::Scene& scene);
 
 // Bytes that particles, lists and ghosts take, per fluid particle.
-double bytes_per_particle(const fluid::Fluid<2>& fluid);
+template <int D>
+double bytes_per_particle(const fluid::Fluid<D>& fluid);
 
 }  // namespace aquagraph::engine

@@ -96,9 +96,8 @@ void print_comparisons(std::ostream& out, const std::vector<io::Comparison>& com
                 c.window[1]);
 }
 
-}  // namespace
-
-ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& out, std::ostream& err) {
+template <int D>
+ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream& out, std::ostream& err) {
     const std::filesystem::path folder =
         options.folder.empty() ? std::filesystem::path("results") / scene.name : options.folder;
     tasks::Executor executor(options.threads);
@@ -109,8 +108,8 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
             throw std::system_error(errno, std::generic_category(), "cannot write " + options.trace.string());
     }
 
-    const std::unique_ptr<Model> model = make_model(scene);
-    Results results(scene, *model, folder);
+    const std::unique_ptr<Model<D>> model = make_model<D>(scene);
+    Results<D> results(scene, *model, folder);
     std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
     for (tasks::Task& task : result_tasks(&results)) listing.push_back(std::move(task));
     tasks::TaskGraph graph(std::move(listing), executor, trace ? &*trace : nullptr);
@@ -160,14 +159,14 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
     }
     if (progress) progress->finish();
 
-    RunFigures figures{.wall_seconds = seconds(), .threads = executor.threads(), .passes = passes_of(graph)};
+    const RunEnd end{outcome, message, {seconds(), executor.threads(), passes_of(graph)}};
     std::vector<io::Comparison> comparisons;
     try {
         if (outcome != io::RunOutcome::finished) {
             results.write_history_row();
             results.write_frame();
         }
-        comparisons = results.finish(outcome, message, figures);
+        comparisons = results.finish(end);
         if (trace) {
             trace->write(options.trace.string());
             if (trace->dropped_count() > 0)
@@ -182,10 +181,10 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
     }
 
     if (!options.quiet) {
-        print_table(out, figures);
+        print_table(out, end.figures);
         print_comparisons(out, comparisons);
-        out << fmt::format("{} steps in {:.2f} s on {} threads; results in {}\n", clock.steps, figures.wall_seconds,
-                           figures.threads, folder.string());
+        out << fmt::format("{} steps in {:.2f} s on {} threads; results in {}\n", clock.steps, end.figures.wall_seconds,
+                           end.figures.threads, folder.string());
     }
     if (outcome == io::RunOutcome::failed) {
         err << "aquagraph: " << message << "\nWhat was computed until then is in " << folder.string() << "\n";
@@ -196,6 +195,12 @@ ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& ou
         return interrupted;
     }
     return success;
+}
+
+}  // namespace
+
+ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& out, std::ostream& err) {
+    return scene.dimension == 3 ? run_in<3>(scene, options, out, err) : run_in<2>(scene, options, out, err);
 }
 
 }  // namespace aquagraph::engine

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace aquagraph::io {
+#include "io/point.hpp"
 
-using Point = std::array<double, 2>;
+namespace aquagraph::io {
 
 struct Box {
     Point min{}, max{};
@@ -34,11 +34,12 @@ struct FluidScene {
     double cfl = 0.375;              // K of Δt = K R/c
     Reconstruction reconstruction = Reconstruction::muscl;
     InitialPressure initial_pressure = InitialPressure::hydrostatic;
-    std::optional<double> surface_level;  // y at which p = 0 [m]; default: the highest top of the boxes
+    std::optional<double> surface_level;  // height at which p = 0 [m]; default: the highest top of the boxes
     std::vector<Box> boxes;               // filled with particles at the centres of Δx cells
 };
 
-// A polyline; the fluid lies on the left of the direction of travel.
+// In 2D a polyline with the fluid on the left of the direction of travel; in 3D the corners of a flat convex face,
+// counter-clockwise as seen from the fluid.
 struct WallScene {
     std::string name;
     std::vector<Point> points;
@@ -107,7 +108,8 @@ struct Scene {
     std::string title;
     std::string text;                      // the file as read
     double end_time = 0;                   // [s]
-    Point gravity{0, -9.81};               // [m/s²]
+    int dimension = 2;                     // of all points: that of domain.min
+    Point gravity{0, -9.81};               // [m/s²]; in 3D {0, 0, -9.81}
     Box domain;                            // particles outside it have left
     DomainEdge edge = DomainEdge::closed;  // closed: leaving it is an error; open: they are taken out and counted
     std::optional<FluidScene> fluid;

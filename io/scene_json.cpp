@@ -12,7 +12,8 @@ Json to_json(const Box& box) {
     return {{"min", box.min}, {"max", box.max}};
 }
 
-Json to_json(const FluidScene& fluid) {
+Json to_json(const FluidScene& fluid, int dimension) {
+    const auto up = static_cast<std::size_t>(dimension - 1);
     Json json = {{"spacing", fluid.spacing},
                  {"density", fluid.density},
                  {"sound_speed", fluid.sound_speed},
@@ -24,7 +25,7 @@ Json to_json(const FluidScene& fluid) {
     double top = 0;
     for (std::size_t k = 0; k < fluid.boxes.size(); ++k) {
         json["box"].push_back(to_json(fluid.boxes[k]));
-        top = k == 0 ? fluid.boxes[k].max[1] : std::max(top, fluid.boxes[k].max[1]);
+        top = k == 0 ? fluid.boxes[k].max[up] : std::max(top, fluid.boxes[k].max[up]);
     }
     json["surface_level"] = fluid.surface_level.value_or(top);
     return json;
@@ -72,13 +73,14 @@ Json to_json(const Compare& compare) {
 nlohmann::json to_json(const Scene& scene) {
     Json json = {
         {"title", scene.title},
+        {"dimension", scene.dimension},
         {"gravity", scene.gravity},
         {"time", {{"end", scene.end_time}}},
         {"domain", to_json(scene.domain)},
         {"output",
          {{"frame_interval", scene.output.frame_interval}, {"history_interval", scene.output.history_interval}}}};
     json["domain"]["edge"] = scene.edge == DomainEdge::closed ? "closed" : "open";
-    if (scene.fluid) json["fluid"] = to_json(*scene.fluid);
+    if (scene.fluid) json["fluid"] = to_json(*scene.fluid, scene.dimension);
     for (const WallScene& wall : scene.walls)
         json["wall"].push_back({{"name", wall.name},
                                 {"points", wall.points},

@@ -40,11 +40,12 @@ using K = KeyKind;
 constexpr auto keys = std::to_array<SceneKey>({
     {"", "schema_version", K::integer, true, "", {1, 1, false, false}, "", "", "version of this layout"},
     {"", "title", K::text, false, "", any, "", "name of the scene", "one line for the report"},
-    {"", "gravity", K::point, false, "m/s²", any, "", "[0, -9.81]", "acceleration of everything"},
+    {"", "gravity", K::point, false, "m/s²", any, "", "[0, -9.81] or [0, 0, -9.81]", "acceleration of everything"},
 
     {"time", "end", K::number, true, "s", positive, "", "", "simulated time"},
 
-    {"domain", "min", K::point, true, "m", any, "", "", "lower left corner"},
+    {"domain", "min", K::point, true, "m", any, "", "",
+     "lower left corner; its length, 2 or 3, is the dimension of the scene"},
     {"domain", "max", K::point, true, "m", any, "", "", "upper right corner"},
     {"domain", "edge", K::choice, false, "", any, "closed open", "closed",
      "closed: a particle that leaves stops the run; open: it is taken out and counted"},
@@ -68,10 +69,10 @@ constexpr auto keys = std::to_array<SceneKey>({
      "of the states between two particles: linear with limiter, or none"},
     {"fluid", "initial_pressure", K::choice, false, "", any, "hydrostatic zero", "hydrostatic", "pressure at t = 0"},
     {"fluid", "surface_level", K::number, false, "m", any, "", "highest top of the boxes",
-     "y at which the hydrostatic pressure is zero"},
+     "height (y, in 3D z) at which the hydrostatic pressure is zero"},
 
     {"fluid.box", "min", K::point, true, "m", any, "", "", "lower left corner"},
-    {"fluid.box", "max", K::point, true, "m", any, "", "", "upper right corner, at least Δx away in x and in y"},
+    {"fluid.box", "max", K::point, true, "m", any, "", "", "upper right corner, at least Δx away in every direction"},
 
     {"wall", "name", K::text, true, "", any, "", "", "letters, digits and _, beginning with a letter; each once"},
     {"wall", "points", K::points, true, "m", any, "", "", "two or more, no two in a row the same"},
@@ -239,7 +240,7 @@ std::string expectation(const SceneKey& key) {
             text = "a text in quotes";
             break;
         case K::point:
-            text = "two numbers [x, y]";
+            text = "two numbers [x, y] or three [x, y, z]";
             break;
         case K::pair_of_counts:
             text = "two whole numbers [nx, ny]";

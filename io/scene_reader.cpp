@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/atomic_file.hpp"
+#include "io/scene_dimension.hpp"
 #include "io/scene_validation.hpp"
 #include "io/suggestion.hpp"
 #include "io/toml_document.hpp"
@@ -22,6 +23,8 @@ class Filler {
 
     void everything() {
         document_.take("title", scene_.title);
+        scene_.dimension = agree_on_dimension(document_, complaints_);
+        if (scene_.dimension == 3) scene_.gravity = Point(0, 0, -9.81);
         document_.take("gravity", scene_.gravity);
         document_.take("time.end", scene_.end_time);
         document_.take("domain.min", scene_.domain.min);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <optional>
 #include <set>
@@ -17,8 +18,14 @@ namespace {
 // Corners that meet to within this part of a spacing or length touch; they do not overlap.
 constexpr double touching = 1e-6;
 
+constexpr std::array<std::string_view, 3> axis{"x", "y", "z"};
+
+std::string text(const Point& point) {
+    return fmt::format("[{}]", fmt::join(point, ", "));
+}
+
 std::string text(const Box& box) {
-    return fmt::format("[{}, {}] – [{}, {}]", box.min[0], box.min[1], box.max[0], box.max[1]);
+    return text(box.min) + " – " + text(box.max);
 }
 
 std::string element(std::string_view list, std::size_t i, std::string_view key = {}) {
@@ -26,8 +33,8 @@ std::string element(std::string_view list, std::size_t i, std::string_view key =
 }
 
 std::optional<Box> overlap(const Box& a, const Box& b, double tolerance) {
-    Box common;
-    for (std::size_t d = 0; d < 2; ++d) {
+    Box common = a;
+    for (std::size_t d = 0; d < a.min.size(); ++d) {
         common.min[d] = std::max(a.min[d], b.min[d]);
         common.max[d] = std::min(a.max[d], b.max[d]);
         if (common.max[d] - common.min[d] <= tolerance) return std::nullopt;
@@ -49,6 +56,10 @@ class Validation {
                 "coupling",
                 fmt::format("[coupling] needs a fluid and a solid, but there is no [{}]", fluid ? "solid" : "fluid"),
                 fmt::format("add [{}] or take [coupling] out", fluid ? "solid" : "fluid"));
+        if (solid && scene_.dimension == 3)
+            complaints_.add(
+                "solid", "a solid in three dimensions cannot be computed yet",
+                "take [solid] and [coupling] out, or make the scene two-dimensional: [domain] min = [x, y]");
         if (!fluid) return;
         if (scene_.fluid->boxes.empty() && !complaints_.touch("fluid.box"))
             complaints_.add("fluid", "[fluid] has no water in it", "add at least one [[fluid.box]] with min and max");
@@ -57,11 +68,11 @@ class Validation {
     // Whether max lies beyond min; without it no other check of the box makes sense.
     bool ordered(const Box& box, const std::string& key) {
         if (complaints_.touch(key + ".min") || complaints_.touch(key + ".max")) return false;
-        for (std::size_t d = 0; d < 2; ++d)
+        for (std::size_t d = 0; d < box.min.size(); ++d)
             if (!(box.max[d] > box.min[d])) {
                 complaints_.add(key + ".max",
-                                fmt::format("`max` must lie beyond `min`, but in {} it is {} and `min` is {}",
-                                            d == 0 ? "x" : "y", box.max[d], box.min[d]),
+                                fmt::format("`max` must lie beyond `min`, but in {} it is {} and `min` is {}", axis[d],
+                                            box.max[d], box.min[d]),
                                 "min is the lower left corner, max the upper right one");
                 return false;
             }
@@ -87,7 +98,7 @@ class Validation {
                         element("fluid.box", i),
                         fmt::format("water box {} overlaps water box {} in {}", i + 1, j + 1, text(*common)),
                         "boxes may share an edge, not an area: particles would stand in each other");
-            if (scene_.solid && scene_.solid->box && !complaints_.touch("solid.box"))
+            if (scene_.dimension == 2 && scene_.solid && scene_.solid->box && !complaints_.touch("solid.box"))
                 if (const auto common = overlap(box, *scene_.solid->box, tolerance))
                     complaints_.add(element("fluid.box", i),
                                     fmt::format("water box {} overlaps the solid box in {}", i + 1, text(*common)),
@@ -107,10 +118,10 @@ class Validation {
             }
             for (std::size_t k = 1; k < points.size(); ++k)
                 if (points[k] == points[k - 1])
-                    complaints_.add(element(key, k),
-                                    fmt::format("segment {} of the wall has no length: both its ends are [{}, {}]", k,
-                                                points[k][0], points[k][1]),
-                                    "take one of the two points out");
+                    complaints_.add(
+                        element(key, k),
+                        fmt::format("segment {} of the wall has no length: both its ends are {}", k, text(points[k])),
+                        "take one of the two points out");
             if (scene_.walls[i].closed && points.front() == points.back())
                 complaints_.add(element(key, points.size() - 1),
                                 "the closing segment of the wall has no length: the first point is repeated",
@@ -183,18 +194,24 @@ class Validation {
     }
 
   private:
+    static std::string_view extent(const Box& box, std::size_t d) {
+        if (d + 1 == box.min.size()) return "high";
+        return d == 0 ? "wide" : "deep";
+    }
+
     void thin(const Box& box, std::size_t i, double spacing) {
-        for (std::size_t d = 0; d < 2; ++d)
+        for (std::size_t d = 0; d < box.min.size(); ++d)
             if (const double width = box.max[d] - box.min[d]; width < (1 - touching) * spacing)
-                complaints_.add(element("fluid.box", i, "max"),
-                                fmt::format("the box is {} m {}, less than one spacing of {} m", width,
-                                            d == 0 ? "wide" : "high", spacing),
-                                "a particle needs a cell of Δx by Δx: make the box larger or the spacing smaller");
+                complaints_.add(
+                    element("fluid.box", i, "max"),
+                    fmt::format("the box is {} m {}, less than one spacing of {} m", width, extent(box, d), spacing),
+                    "a particle needs a cell of Δx in every direction: make the box larger or the spacing "
+                    "smaller");
     }
 
     void inside_domain(const Box& box, std::size_t i, double tolerance) {
         const Box& domain = scene_.domain;
-        for (std::size_t d = 0; d < 2; ++d)
+        for (std::size_t d = 0; d < box.min.size(); ++d)
             if (box.min[d] < domain.min[d] - tolerance || box.max[d] > domain.max[d] + tolerance) {
                 complaints_.add(element("fluid.box", i),
                                 fmt::format("water box {} reaches out of the domain {}", i + 1, text(domain)),
@@ -266,7 +283,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.parts();
     if (complaints.positions.contains("domain") && !complaints.touch("domain"))
         validation.ordered(scene.domain, "domain");
-    validation.solid();
+    if (scene.dimension == 2) validation.solid();
     validation.fluid_boxes();
     validation.walls();
     validation.names();

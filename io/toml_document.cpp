@@ -180,6 +180,8 @@ class Checker {
                 choice(key, path, node);
                 break;
             case KeyKind::point:
+                if (const auto place = point(key, path, node)) keep(path, *place);
+                break;
             case KeyKind::interval:
                 if (const auto both = pair(key, path, node)) keep(path, *both);
                 break;
@@ -262,12 +264,23 @@ class Checker {
         return found;
     }
 
-    std::optional<Point> pair(const SceneKey& key, const std::string& path, const toml::node& node) {
+    std::optional<std::array<double, 2>> pair(const SceneKey& key, const std::string& path, const toml::node& node) {
         const toml::array* both = list(key, path, node, 2);
         if (!both) return std::nullopt;
         const auto first = finite(key, path, (*both)[0]), second = finite(key, path, (*both)[1]);
         if (!first || !second) return std::nullopt;
-        return Point{*first, *second};
+        return std::array{*first, *second};
+    }
+
+    // That all points of a scene have the same number of coordinates is looked at when all are known.
+    std::optional<Point> point(const SceneKey& key, const std::string& path, const toml::node& node) {
+        const bool three = node.is_array() && node.as_array()->size() == 3;
+        const toml::array* all = list(key, path, node, three ? 3 : 2);
+        if (!all) return std::nullopt;
+        const auto x = finite(key, path, (*all)[0]), y = finite(key, path, (*all)[1]);
+        const auto z = three ? finite(key, path, (*all)[2]) : 0.0;
+        if (!x || !y || !z) return std::nullopt;
+        return three ? Point(*x, *y, *z) : Point(*x, *y);
     }
 
     void counts(const SceneKey& key, const std::string& path, const toml::node& node) {
@@ -296,7 +309,7 @@ class Checker {
         std::vector<Point> corners;
         bool good = true;
         for (std::size_t i = 0; i < all->size(); ++i) {
-            const auto corner = pair(key, fmt::format("{}[{}]", path, i), (*all)[i]);
+            const auto corner = point(key, fmt::format("{}[{}]", path, i), (*all)[i]);
             good = good && corner;
             if (corner) corners.push_back(*corner);
         }

@@ -12,7 +12,7 @@
 
 namespace aquagraph::io {
 
-using DocumentValue = std::variant<double, int, bool, std::string, std::array<double, 2>, std::array<int, 2>,
+using DocumentValue = std::variant<double, int, bool, std::string, std::array<double, 2>, std::array<int, 2>, Point,
                                    std::vector<std::string>, std::vector<Point>>;
 
 struct CheckedDocument {

@@ -16,9 +16,10 @@ struct Reach {
     double displacement2 = 0, speed2 = 0;
 };
 
+template <int D>
 class NeighbourSearchTask {
   public:
-    NeighbourSearchTask(fluid::Fluid<2>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+    NeighbourSearchTask(fluid::Fluid<D>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
                         const Clock& clock)
         : fluid_(fluid), walls_(walls), interface_(interface), clock_(clock) {}
 
@@ -39,9 +40,11 @@ class NeighbourSearchTask {
             [&](std::size_t block) {
                 Reach r{largest_displacement_squared(particles, block), 0};
                 const auto lanes = fluid_.lanes(block);
-                for (std::size_t i = lanes.begin; i < lanes.end; ++i)
-                    r.speed2 = std::max(r.speed2,
-                                        particles.v[0][i] * particles.v[0][i] + particles.v[1][i] * particles.v[1][i]);
+                for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
+                    double v2 = 0;
+                    for (std::size_t d = 0; d < D; ++d) v2 += particles.v[d][i] * particles.v[d][i];
+                    r.speed2 = std::max(r.speed2, v2);
+                }
                 return r;
             },
             [](const Reach& a, const Reach& b) {
@@ -61,13 +64,16 @@ class NeighbourSearchTask {
 
     void rebuild() {
         auto& particles = fluid_.particles;
-        if (walls_) check_walls();
+        if constexpr (D == 2)
+            if (walls_) check_walls();
         if (!fluid_.closed) fluid_.removed += remove_outside(particles, fluid_.domain);
-        if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
+        if constexpr (D == 2)
+            if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
         rebuild_lists(fluid_, walls_, parallel_loop);
         built_once_ = true;
         if (walls_) built_ = walls_->panels.position;
-        if (interface_) interface_->load.rebuild(particles, fluid_.lists, *walls_);
+        if constexpr (D == 2)
+            if (interface_) interface_->load.rebuild(particles, fluid_.lists, *walls_);
     }
 
     // A particle deeper behind a wall than half a spacing would no longer be mirrored: it has passed through.
@@ -79,7 +85,7 @@ class NeighbourSearchTask {
                                "' and is " + std::to_string(escape.depth / fluid_.spacing) + " spacings behind it");
     }
 
-    fluid::Fluid<2>& fluid_;
+    fluid::Fluid<D>& fluid_;
     fluid::GhostWalls* walls_;
     coupling::Interface* interface_;
     const Clock& clock_;
@@ -90,14 +96,20 @@ class NeighbourSearchTask {
 
 }  // namespace
 
-Task neighbour_search(fluid::Fluid<2>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+template <int D>
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
                       const Clock& clock, const std::string& label) {
     // Held by pointer: the graph copies bodies.
-    auto search = std::make_shared<NeighbourSearchTask>(fluid, walls, interface, clock);
+    auto search = std::make_shared<NeighbourSearchTask<D>>(fluid, walls, interface, clock);
     return {.name = "neighbour search (" + label + ")",
             .reads = {resource::clock_step, resource::interface_motion},
             .writes = {resource::fluid, resource::walls},
             .body = [search] { (*search)(); }};
 }
+
+template Task neighbour_search(fluid::Fluid<2>&, fluid::GhostWalls*, coupling::Interface*, const Clock&,
+                               const std::string&);
+template Task neighbour_search(fluid::Fluid<3>&, fluid::GhostWalls*, coupling::Interface*, const Clock&,
+                               const std::string&);
 
 }  // namespace aquagraph::tasks

@@ -11,7 +11,8 @@ namespace aquagraph::tasks {
 // walls: null where the scene has none; interface: null without a solid. A rebuild takes out particles that have left
 // an open domain, re-sorts the others, mirrors them anew and renews the lists and everything that is indexed like them.
 // Throws SickParticle (tasks/stepping.hpp) if a particle has passed through a wall.
-Task neighbour_search(fluid::Fluid<2>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+template <int D>
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
                       const Clock& clock, const std::string& label);
 
 }  // namespace aquagraph::tasks

@@ -2,21 +2,30 @@
 
 namespace aquagraph::fluid {
 
-void rebuild_lists(Fluid<2>& fluid, GhostWalls* walls, BlockLoop loop) {
-    Particles<2>& particles = fluid.particles;
+template <int D>
+void rebuild_lists(Fluid<D>& fluid, GhostWalls* walls, BlockLoop loop) {
+    Particles<D>& particles = fluid.particles;
     fluid.reorder.apply(particles, fluid.order.sort(particles.x, particles.count, fluid.spacing));
     for (std::size_t block = 0; block < fluid.blocks(); ++block) {
         // Pressure, impedance and volume follow from what has been re-sorted.
         const LaneRange lanes = fluid.lanes(block);
         update_state(particles, fluid.tait, lanes);
         for (std::size_t i = lanes.begin; i < lanes.end; ++i)
-            for (std::size_t d = 0; d < 2; ++d) particles.x_built[d][i] = particles.x[d][i];
+            for (std::size_t d = 0; d < D; ++d) particles.x_built[d][i] = particles.x[d][i];
     }
     fluid.runge_kutta.resize(particles);
-    if (walls)
-        walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), {fluid.flux.gravity[0], fluid.flux.gravity[1]});
-    fluid.search.build(particles, fluid.lists, walls ? &walls->visibility : nullptr, loop);
+    const PairFilter<D>* visibility = nullptr;
+    if constexpr (D == 2)
+        if (walls) {
+            walls->rebuild(particles, fluid.spacing, fluid.lists.reach(),
+                           {fluid.flux.gravity[0], fluid.flux.gravity[1]});
+            visibility = &walls->visibility;
+        }
+    fluid.search.build(particles, fluid.lists, visibility, loop);
     ++fluid.rebuilds;
 }
+
+template void rebuild_lists(Fluid<2>&, GhostWalls*, BlockLoop);
+template void rebuild_lists(Fluid<3>&, GhostWalls*, BlockLoop);
 
 }  // namespace aquagraph::fluid

@@ -7,6 +7,7 @@ namespace aquagraph::fluid {
 
 // Re-sorts the particles in space, mirrors them anew and makes new lists. walls may be null. Vertices of walls must
 // stand where they are now.
-void rebuild_lists(Fluid<2>& fluid, GhostWalls* walls, BlockLoop loop);
+template <int D>
+void rebuild_lists(Fluid<D>& fluid, GhostWalls* walls, BlockLoop loop);
 
 }  // namespace aquagraph::fluid

@@ -24,7 +24,7 @@ struct Bend {
 void disorder(Built& built, const Bend& bend, double amount = 1) {
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> uniform(-amount, amount);
-    engine::Model& model = *built.model;
+    engine::Model<2>& model = *built.model;
     auto& s = model.fluid->particles;
     for (std::size_t i = 0; i < s.count; ++i) {
         for (std::size_t d = 0; d < 2; ++d) {
@@ -48,7 +48,7 @@ Vec2 load_of(const Built& built) {
     return {built.model->interface->force[0], built.model->interface->force[1]};
 }
 
-bool belongs_to_body(const engine::Model& model, const fluid::Ghost& ghost) {
+bool belongs_to_body(const engine::Model<2>& model, const fluid::Ghost& ghost) {
     if (ghost.corner < 0) return model.walls->panels.panels[std::size_t(ghost.panel)].wet;
     const fluid::Corner& corner = model.walls->corners[std::size_t(ghost.corner)];
     return model.walls->panels.panels[std::size_t(corner.panel[0])].wet ||
@@ -61,7 +61,7 @@ struct OnFluid {
     double magnitude = 0;
     std::size_t pairs = 0;
 };
-OnFluid on_fluid(const engine::Model& model) {
+OnFluid on_fluid(const engine::Model<2>& model) {
     OnFluid total;
     each_wall_pair(model, [&](std::size_t, std::size_t g, const Vec2& force) {
         if (!belongs_to_body(model, model.walls->ghosts[g])) return;
@@ -72,7 +72,7 @@ OnFluid on_fluid(const engine::Model& model) {
     return total;
 }
 
-std::size_t corner_ghosts(const engine::Model& model) {
+std::size_t corner_ghosts(const engine::Model<2>& model) {
     std::size_t found = 0;
     for (const fluid::Ghost& ghost : model.walls->ghosts) found += ghost.corner >= 0;
     return found;
@@ -110,7 +110,7 @@ TEST_CASE("beside rigid walls the body gets the load of its own ghosts only") {
     disorder(built, Bend{0});
     built.compute_loads();
     // A corner between gate and floor belongs to whichever of the two the line of sight enters.
-    const engine::Model& model = *built.model;
+    const engine::Model<2>& model = *built.model;
     Vec2 sum = Vec2::Zero();
     std::size_t rigid = 0;
     each_wall_pair(model, [&](std::size_t i, std::size_t g, const Vec2& force) {
@@ -133,7 +133,7 @@ TEST_CASE("forces keep their moment on the way from ghosts to nodes, and their p
         Built built(corners ? coarse_strip : strip);
         disorder(built, Bend{corners ? 0.1 : 0.06});
         built.compute_loads();
-        const engine::Model& model = *built.model;
+        const engine::Model<2>& model = *built.model;
         const fluid::Panels<2>& panels = model.walls->panels;
         REQUIRE((corner_ghosts(model) > 0) == corners);
 
@@ -179,7 +179,7 @@ TEST_CASE("what the fluid loses in momentum the body gets, step by step") {
     // walls, where they are stopped (GhostWalls::hold_back) and lose momentum to nobody.
     Built built(strip);
     disorder(built, Bend{0.06}, 0.1);
-    engine::Model& model = *built.model;
+    engine::Model<2>& model = *built.model;
     const auto& s = model.fluid->particles;
     const auto momentum = [&] {
         Vec2 sum = Vec2::Zero();

@@ -17,7 +17,7 @@ inline double limited(double a, double b) {  // minmod
     return 0;
 }
 
-inline bool may_see(const engine::Model& model, std::size_t i, std::size_t lane) {
+inline bool may_see(const engine::Model<2>& model, std::size_t i, std::size_t lane) {
     const fluid::Visibility& visibility = model.walls->visibility;
     if (visibility.sees_everything(i)) return true;
     const auto bit = std::uint8_t(1u << (lane % fluid::W));
@@ -50,7 +50,7 @@ inline Vec2 pair_force(const fluid::Fluid<2>& fluid, std::size_t i, std::size_t 
 
 // f(particle, ghost, force of the ghost on the particle) for all pairs within sight of each other.
 template <class F>
-void each_wall_pair(const engine::Model& model, F&& f) {
+void each_wall_pair(const engine::Model<2>& model, F&& f) {
     const fluid::Fluid<2>& fluid = *model.fluid;
     const auto& s = fluid.particles;
     const double radius2 = fluid.kernel.radius() * fluid.kernel.radius();

@@ -19,7 +19,7 @@ struct Steady {
 Steady count_in_cycles(const std::string& text, int cycles) {
     Built built(with(text, "end = 0.", "end = 10."));  // as many cycles as wanted
     built.start();
-    engine::Model& model = *built.model;
+    engine::Model<2>& model = *built.model;
     tasks::TaskGraph graph(std::move(built.listing), built.executor);
     // Arrays find their size, threads make their buffers.
     for (int cycle = 0; cycle < 10; ++cycle) graph.run();

@@ -221,13 +221,13 @@ inline std::size_t count(std::string_view text, std::string_view part) {
 struct Built {
     ScratchFolder folder;
     io::Scene scene;
-    std::unique_ptr<engine::Model> model;
+    std::unique_ptr<engine::Model<2>> model;
     std::vector<tasks::Task> listing;
     tasks::Executor executor{2};
 
     explicit Built(const std::string& text)
         : scene(io::read_scene(folder.write("scene.toml", text))),
-          model(engine::make_model(scene)),
+          model(engine::make_model<2>(scene)),
           listing(engine::coupling_cycle(*model, scene.coupling)) {}
 
     void start() {

@@ -167,8 +167,8 @@ TEST_CASE("wrong types") {
     expect("wet = [\"left\"]", "wet = \"left\"", 18, 7, "`wet` must be a list of texts", "surface sets");
     expect("wet = [\"left\"]", "wet = [\"left\"]\nstatic_start = 1", 19, 16,
            "`static_start` must be true or false, but it is a whole number", "equilibrium");
-    expect("min = [0.0, 0.0]", "min = [0.0]", 12, 7, "`min` must be two numbers [x, y], in m, but it is a list of 1",
-           "lower left");
+    expect("min = [0.0, 0.0]", "min = [0.0]", 12, 7,
+           "`min` must be two numbers [x, y] or three [x, y, z], in m, but it is a list of 1", "lower left");
     expect("min = [0.0, 0.0]", "min = [0.0, \"a\"]", 12, 13, "`min` must be two numbers", "lower left");
     expect("points = [[0.0, 0.0], [1.0, 0.0]]", "points = [[0.0, 0.0], 1.0]", 16, 23,
            "`points` must be a list of points", "two or more");
@@ -226,7 +226,7 @@ TEST_CASE("boxes") {
            "`max` must lie beyond `min`, but in x it is 1 and `min` is 1", "upper right");
     expect("max = [2.0, 2.0]", "max = [-2.0, 2.0]", 7, 7, "`max` must lie beyond `min`", "lower left");
     expect("max = [1.0, 0.5]", "max = [1.0, 0.05]", 13, 7, "the box is 0.05 m high, less than one spacing of 0.1 m",
-           "a cell of Δx by Δx");
+           "a cell of Δx in every direction");
     expect("[[wall]]", "[[fluid.box]]\nmin = [0.9, 0.4]\nmax = [1.0, 0.6]\n[[wall]]", 14, 1,
            "water box 2 overlaps water box 1 in [0.9, 0.4] – [1, 0.5]", "may share an edge");
     expect("max = [1.0, 0.5]", "max = [1.05, 0.5]", 11, 1, "water box 1 overlaps the solid box in [1, 0] – [1.05, 0.5]",

@@ -1,0 +1,103 @@
+#include "engine/history_parts.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "engine/solid_parts.hpp"
+#include "io/scene_reader.hpp"
+
+namespace aquagraph::engine {
+
+namespace {
+
+// What a plane model has per metre of depth.
+template <int D>
+std::string per_depth(const std::string& unit) {
+    return D == 2 ? unit + "/m" : unit;
+}
+
+HistoryPart tracks(const io::Scene& scene, const solid::Solver& solid) {
+    HistoryPart part;
+    std::vector<std::size_t> nodes;
+    for (const io::Track& track : scene.solid->tracks) {
+        nodes.push_back(nearest_node(solid.mesh(), track.point));
+        for (const char* axis : {"_x", "_y"}) part.columns.push_back({track.name + axis, "m"});
+    }
+    part.append = [&solid, nodes](std::vector<double>& row) {
+        for (const std::size_t node : nodes)
+            for (std::size_t d = 0; d < 2; ++d) row.push_back(solid.displacements()[2 * node + d]);
+    };
+    return part;
+}
+
+HistoryPart interface_force(const io::Scene& scene, const coupling::Interface& interface) {
+    return {{{scene.solid->name + "_force_x", "N/m"}, {scene.solid->name + "_force_y", "N/m"}},
+            [&interface](std::vector<double>& row) {
+                row.insert(row.end(), {interface.force[0], interface.force[1]});
+            }};
+}
+
+template <int D>
+HistoryPart fluid_energies(const fluid::Fluid<D>& fluid) {
+    return {{{"fluid_kinetic_energy", per_depth<D>("J")}, {"fluid_potential_energy", per_depth<D>("J")}},
+            [&fluid](std::vector<double>& row) {
+                fluid::FluidEnergies sum;
+                for (std::size_t block = 0; block < fluid.blocks(); ++block) {
+                    const auto part = fluid::energies(fluid.particles, fluid.flux.gravity, fluid.lanes(block));
+                    sum.kinetic += part.kinetic;
+                    sum.potential += part.potential;
+                }
+                row.insert(row.end(), {sum.kinetic, sum.potential});
+            }};
+}
+
+HistoryPart solid_energies(const solid::Solver& solid) {
+    return {{{"solid_kinetic_energy", "J/m"}, {"solid_strain_energy", "J/m"}, {"solid_external_work", "J/m"}},
+            [&solid](std::vector<double>& row) {
+                const solid::Energies energies = solid.energies();
+                row.insert(row.end(), {energies.kinetic, energies.strain, energies.external_work});
+            }};
+}
+
+template <int D>
+HistoryPart particle_figures(const fluid::Fluid<D>& fluid) {
+    return {{{"particles", ""}, {"fastest_particle", "m/s"}}, [&fluid](std::vector<double>& row) {
+                const auto& particles = fluid.particles;
+                double fastest2 = 0;
+                for (std::size_t i = 0; i < particles.count; ++i) {
+                    double v2 = 0;
+                    for (std::size_t d = 0; d < D; ++d) v2 += particles.v[d][i] * particles.v[d][i];
+                    fastest2 = std::max(fastest2, v2);
+                }
+                row.insert(row.end(), {double(particles.count), std::sqrt(fastest2)});
+            }};
+}
+
+void check_comparisons(const io::Scene& scene, const std::vector<HistoryPart>& parts) {
+    std::vector<std::string> names;
+    for (const HistoryPart& part : parts)
+        for (const io::HistoryColumn& column : part.columns) names.push_back(column.name);
+    io::check_compared_columns(scene, names);
+}
+
+}  // namespace
+
+template <int D>
+std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& model) {
+    std::vector<HistoryPart> parts;
+    parts.push_back({{{"time", "s"}, {"step_size", "s"}}, [&clock = model.clock](std::vector<double>& row) {
+                         row.insert(row.end(), {clock.time, clock.step});
+                     }});
+    if (model.solid) parts.push_back(tracks(scene, *model.solid));
+    if (model.interface) parts.push_back(interface_force(scene, *model.interface));
+    if (model.fluid) parts.push_back(fluid_energies(*model.fluid));
+    if (model.solid) parts.push_back(solid_energies(*model.solid));
+    if (model.fluid) parts.push_back(particle_figures(*model.fluid));
+    check_comparisons(scene, parts);
+    return parts;
+}
+
+template std::vector<HistoryPart> history_parts(const io::Scene&, const Model<2>&);
+template std::vector<HistoryPart> history_parts(const io::Scene&, const Model<3>&);
+
+}  // namespace aquagraph::engine

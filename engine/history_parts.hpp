@@ -1,0 +1,20 @@
+// The columns of history.csv, each group with what fills it: what a scene does not have or ask for is not there.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "engine/model.hpp"
+#include "io/history.hpp"
+
+namespace aquagraph::engine {
+
+struct HistoryPart {
+    std::vector<io::HistoryColumn> columns;
+    std::function<void(std::vector<double>&)> append;  // one value per column, of the model's present state
+};
+
+// The model must outlive the parts. Throws io::SceneError for a comparison with a column that will not be there.
+template <int D>
+std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& model);
+
+}  // namespace aquagraph::engine

@@ -1,0 +1,126 @@
+#include "engine/solid_parts.hpp"
+
+#include <fstream>
+#include <limits>
+
+#include "io/scene_reader.hpp"
+#include "physics/fluid/rebuild.hpp"
+#include "physics/solid/gmsh_mesh.hpp"
+#include "tasks/parallel_loop.hpp"
+#include "tasks/solid_step.hpp"
+#include "tasks/walls.hpp"
+
+namespace aquagraph::engine {
+
+namespace {
+
+solid::Mesh make_mesh(const io::Scene& scene) {
+    const io::SolidScene& from = *scene.solid;
+    if (from.box)
+        return solid::box_mesh(from.box->min.as<2>(), from.box->max.as<2>(), from.elements[0], from.elements[1]);
+    std::ifstream file(from.mesh);
+    if (!file)
+        throw io::scene_error(scene, "solid.mesh", "the mesh file " + from.mesh.string() + " cannot be opened",
+                              "give the path of a Gmsh 4.1 file, relative to the scene");
+    try {
+        return solid::read_gmsh(file, from.mesh.string());
+    } catch (const solid::MeshError& error) {
+        throw io::scene_error(scene, "solid.mesh", error.what(), "mend the mesh, or mesh a box with [solid.box]");
+    }
+}
+
+// Even–odd rule on the boundary of the mesh.
+bool inside(const solid::Mesh& mesh, const std::vector<solid::SurfaceEdge>& boundary, double x, double y) {
+    bool odd = false;
+    for (const auto& [a, b, middle] : boundary) {
+        const auto &p = mesh.nodes[std::size_t(a)], &q = mesh.nodes[std::size_t(b)];
+        if ((p[1] > y) != (q[1] > y) && x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0])) odd = !odd;
+    }
+    return odd;
+}
+
+void refuse_water_inside(const io::Scene& scene, const Model<2>& model) {
+    const auto& mesh = model.solid->mesh();
+    const auto boundary = solid::boundary_edges(mesh);
+    const auto& particles = model.fluid->particles;
+    for (std::size_t i = 0; i < particles.count; ++i)
+        if (inside(mesh, boundary, particles.x[0][i], particles.x[1][i]))
+            throw io::scene_error(scene, "fluid.box[0]",
+                                  "there is water inside the solid, at (" + std::to_string(particles.x[0][i]) + ", " +
+                                      std::to_string(particles.x[1][i]) + ") m",
+                                  "cut the box so that it ends at the solid's surface");
+}
+
+}  // namespace
+
+solid::Solver make_solid(const io::Scene& scene) {
+    const io::SolidScene& from = *scene.solid;
+    solid::Options options;
+    options.law = from.law == io::MaterialLaw::neo_hookean ? solid::MaterialLaw::neo_hookean
+                                                           : solid::MaterialLaw::saint_venant_kirchhoff;
+    options.plane =
+        from.plane == io::PlaneCondition::stress ? solid::PlaneCondition::stress : solid::PlaneCondition::strain;
+    options.youngs_modulus = from.youngs_modulus;
+    options.poissons_ratio = from.poissons_ratio;
+    options.density = from.density;
+    options.gravity = scene.gravity.as<2>();
+    options.scheme = from.scheme == io::SolidScheme::newmark ? solid::Scheme::newmark : solid::Scheme::hht;
+    options.alpha = from.alpha;
+    for (const io::Clamp& clamp : from.clamps) options.clamps.push_back({clamp.set, clamp.fixed});
+    try {
+        return solid::Solver(make_mesh(scene), options);
+    } catch (const std::invalid_argument& error) {
+        throw io::scene_error(scene, "solid", error.what(), "see [solid] in SCENES.md");
+    }
+}
+
+coupling::Interface make_interface(const io::Scene& scene, Model<2>& model) {
+    refuse_water_inside(scene, model);
+    coupling::Interface interface;
+    try {
+        interface.surface =
+            coupling::WetSurface(model.solid->mesh(), scene.solid->wet, scene.solid->name, model.walls->panels);
+    } catch (const std::invalid_argument& error) {
+        throw io::scene_error(scene, "solid.wet", error.what(), "name surfaces of the mesh");
+    }
+    interface.fluid_loads.assign(2 * model.solid->mesh().nodes.size(), 0.0);
+    interface.solid_loads = interface.fluid_loads;
+    return interface;
+}
+
+void start_solid(Model<2>& model, const io::Scene& scene) {
+    if (scene.solid->static_start) {
+        const std::vector<double> no_loads(2 * model.solid->mesh().nodes.size(), 0.0);
+        model.solid->solve_static(no_loads, tasks::parallel_loop);
+    }
+    if (!model.interface) return;
+
+    // The water's load on the solid at t = 0, which the first solve of CPS reads.
+    fluid::Fluid<2>& fluid = *model.fluid;
+    fluid::GhostWalls& walls = *model.walls;
+    coupling::Interface& interface = *model.interface;
+    interface.surface.take(model.solid->positions(), model.solid->velocities());
+    interface.surface.place(walls.panels, 0);
+    rebuild_lists(fluid, &walls, tasks::parallel_loop);
+    interface.load.rebuild(fluid.particles, fluid.lists, walls);
+    for (const tasks::Task& task :
+         {tasks::interface_gradients(fluid, interface), tasks::ghost_gradients(fluid, walls, "start"),
+          tasks::interface_loads(fluid, walls, interface)})
+        task.body();
+    interface.solid_loads = interface.fluid_loads;
+}
+
+std::size_t nearest_node(const solid::Mesh& mesh, const io::Point& point) {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+        const double dx = mesh.nodes[n][0] - point[0], dy = mesh.nodes[n][1] - point[1];
+        if (dx * dx + dy * dy < least) {
+            least = dx * dx + dy * dy;
+            nearest = n;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace aquagraph::engine
