@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "engine/solid_parts.hpp"
+#include "engine/wall_parts.hpp"
 #include "io/scene_reader.hpp"
 #include "physics/fluid/filling.hpp"
 
@@ -41,14 +42,6 @@ fluid::Fluid<D> make_fluid(const io::Scene& scene) {
     if (from.initial_pressure == io::InitialPressure::hydrostatic) level = from.surface_level.value_or(top);
     fill(made.particles, boxes, made.spacing, made.tait, -scene.gravity[D - 1], level);
     return made;
-}
-
-void add_walls(const io::Scene& scene, fluid::Panels<2>& panels) {
-    for (const io::WallScene& wall : scene.walls) {
-        std::vector<fluid::Vec2> points;
-        for (const io::Point& p : wall.points) points.emplace_back(p[0], p[1]);
-        panels.add_wall(wall.name, points, wall.closed, wall.slip == io::Slip::none);
-    }
 }
 
 }  // namespace

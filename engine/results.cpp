@@ -109,7 +109,6 @@ void Results<D>::write_frame() {
     record_flow();
 }
 
-// Seen from the side: in 3D along y.
 template <int D>
 void Results<D>::record_flow() {
     if (!flow_.wanted()) {
@@ -122,7 +121,8 @@ void Results<D>::record_flow() {
     if (model_.fluid) {
         const auto& s = model_.fluid->particles;
         frame.x = std::span(s.x[0].data(), s.count);
-        frame.y = std::span(s.x[D - 1].data(), s.count);
+        frame.y = std::span(s.x[1].data(), s.count);
+        if constexpr (D == 3) frame.z = std::span(s.x[2].data(), s.count);
         frame.pressure = std::span(s.p.data(), s.count);
         speed.resize(s.count);
         for (std::size_t i = 0; i < s.count; ++i) {

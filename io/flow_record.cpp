@@ -6,9 +6,10 @@
 namespace aquagraph::io {
 namespace {
 
-// As embedded: position in two times two bytes, each field in one byte.
+// As embedded: each coordinate in two bytes, each field in one.
 std::size_t embedded_bytes(const FlowRecord::Frame& frame) {
-    std::size_t bytes = 4 * frame.x.size() + frame.pressure.size() + frame.speed.size();
+    std::size_t bytes =
+        2 * (frame.x.size() + frame.y.size() + frame.z.size()) + frame.pressure.size() + frame.speed.size();
     for (const auto& outline : frame.outlines) bytes += 4 * outline.size();
     return bytes;
 }
@@ -27,8 +28,8 @@ FlowRecord::FlowRecord(double spacing, Limits limits) : spacing_(spacing), limit
 
 void FlowRecord::add(const ReportFrame& frame) {
     const std::size_t n = frame.x.size();
-    if (frame.y.size() != n || (!frame.pressure.empty() && frame.pressure.size() != n) ||
-        (!frame.speed.empty() && frame.speed.size() != n))
+    if (frame.y.size() != n || (!frame.z.empty() && frame.z.size() != n) ||
+        (!frame.pressure.empty() && frame.pressure.size() != n) || (!frame.speed.empty() && frame.speed.size() != n))
         throw std::invalid_argument("the fields of a report frame differ in length");
     if (seen_++ % stride_ != 0) return;
     const std::size_t every = std::max<std::size_t>(1, (n + limits_.particles - 1) / limits_.particles);
@@ -36,6 +37,7 @@ void FlowRecord::add(const ReportFrame& frame) {
                every,
                thinned(frame.x, every),
                thinned(frame.y, every),
+               thinned(frame.z, every),
                thinned(frame.pressure, every),
                thinned(frame.speed, every),
                frame.outlines};

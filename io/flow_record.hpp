@@ -18,6 +18,7 @@ struct ReportFrame {
     std::span<const double> pressure;          // [Pa]; as long as x, or empty
     std::span<const double> speed;             // [m/s]; as long as x, or empty
     std::vector<std::vector<Point>> outlines;  // of the solids, closed polygons, deformed [m]
+    std::span<const double> z{};               // in 3D: as long as x [m]
 };
 
 class FlowRecord {
@@ -29,8 +30,8 @@ class FlowRecord {
     };
     struct Frame {
         double time = 0;
-        std::size_t every = 1;  // of so many particles one is kept
-        std::vector<float> x, y, pressure, speed;
+        std::size_t every = 1;                        // of so many particles one is kept
+        std::vector<float> x, y, z, pressure, speed;  // z: in 3D
         std::vector<std::vector<Point>> outlines;
     };
 

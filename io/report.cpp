@@ -45,6 +45,7 @@ std::string player_html(const nlohmann::json& flow) {
 <input id="moment" type="range" min="0" value="0" step="1" aria-label="moment">
 <output id="clock"></output>
 <select id="field" aria-label="colour"></select>
+<select id="side" aria-label="view" hidden><option value="25,20" selected>from a corner</option><option value="0,0">from the side</option><option value="90,0">from the end</option><option value="0,90">from above</option></select>
 <select id="pace" aria-label="length of the film"><option value="5">5 s film</option><option value="10" selected>10 s film</option><option value="20">20 s film</option><option value="40">40 s film</option></select>
 </div>
 </figure>

@@ -13,6 +13,8 @@ namespace aquagraph::io {
 std::string html_escaped(std::string_view text);
 // Three significant digits with an SI prefix where the unit takes one: (0.00402, "m") -> "4.02 mm".
 std::string quantity(double value, std::string_view unit);
+// To six digits: more than a plot shows, and the file stays small.
+double rounded(double value);
 // "12.3 s", "4 min 05 s", "2 h 10 min".
 std::string duration(double seconds);
 
@@ -25,8 +27,8 @@ std::string parameter_tables(const Scene& scene);
 // for each compared column, with compared = true, then the other columns of the history grouped by unit.
 nlohmann::json plots(const History& history, const std::vector<Comparison>& comparisons);
 
-// {view, spacing, walls, fields: [{name, unit, low, high}], frames: [{t, n, every, at, values: […], outlines}]};
-// positions and values quantised, base64. null where there is no frame.
+// {view: [min…, max…], spacing, walls, fields: [{name, unit, low, high}], frames: [{t, n, every, at, values: […],
+// outlines}]}; positions and values quantised, base64. null where there is no frame.
 nlohmann::json flow_player(const Scene& scene, const FlowRecord& flow);
 
 }  // namespace aquagraph::io

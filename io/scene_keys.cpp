@@ -23,8 +23,8 @@ constexpr auto sections = std::to_array<SceneSection>({
      "Water at rest, one particle in the middle of every cell of Δx. Boxes may touch, not overlap each other or the "
      "solid."},
     {"wall", true, false,
-     "Rigid walls: polylines. The fluid lies on the left of the direction of travel, so a closed tank is walked "
-     "counter-clockwise."},
+     "Rigid walls. In 2D polylines with the fluid on the left of the direction of travel, so a closed tank is walked "
+     "counter-clockwise. In 3D flat convex faces, their corners counter-clockwise as seen from the fluid."},
     {"solid", false, false, "The elastic body: finite elements. Without it the scene is a fluid alone."},
     {"solid.box", false, false, "A rectangle of eight-node quadrilaterals, with the sets left, right, bottom and top."},
     {"solid.material", false, false, "What the body is made of. Needed with [solid]."},
@@ -75,8 +75,9 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"fluid.box", "max", K::point, true, "m", any, "", "", "upper right corner, at least Δx away in every direction"},
 
     {"wall", "name", K::text, true, "", any, "", "", "letters, digits and _, beginning with a letter; each once"},
-    {"wall", "points", K::points, true, "m", any, "", "", "two or more, no two in a row the same"},
-    {"wall", "closed", K::boolean, false, "", any, "", "false", "joins the last point to the first"},
+    {"wall", "points", K::points, true, "m", any, "", "",
+     "no two in a row the same; in 2D two or more, in 3D three or more"},
+    {"wall", "closed", K::boolean, false, "", any, "", "false", "joins the last point to the first; 2D only"},
     {"wall", "slip", K::choice, false, "", any, "free none", "free", "along the wall: free slip or no slip"},
 
     {"solid", "name", K::text, false, "", any, "", "solid", "letters, digits and _, beginning with a letter"},

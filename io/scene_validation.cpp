@@ -111,11 +111,18 @@ class Validation {
             const std::string key = element("wall", i, "points");
             const std::vector<Point>& points = scene_.walls[i].points;
             if (complaints_.touch(key)) continue;
-            if (points.size() < 2) {
-                complaints_.add(key, fmt::format("a wall needs at least 2 points, but this one has {}", points.size()),
-                                "points = [[x0, y0], [x1, y1], …] with the water on the left of the way");
+            const auto fewest = static_cast<std::size_t>(scene_.dimension);  // a segment, a triangle
+            if (points.size() < fewest) {
+                complaints_.add(
+                    key, fmt::format("a wall needs at least {} points, but this one has {}", fewest, points.size()),
+                    fewest == 2 ? "points = [[x0, y0], [x1, y1], …] with the water on the left of the way"
+                                : "points = [[x0, y0, z0], …], the corners of a flat convex face, counter-clockwise as "
+                                  "seen from the water");
                 continue;
             }
+            if (scene_.dimension == 3 && scene_.walls[i].closed)
+                complaints_.add(element("wall", i, "closed"), "a face is always closed: `closed` is for 2D scenes",
+                                "take it out");
             for (std::size_t k = 1; k < points.size(); ++k)
                 if (points[k] == points[k - 1])
                     complaints_.add(

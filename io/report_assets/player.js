@@ -1,4 +1,5 @@
-// Plays the flow: particles coloured by pressure or speed, the solid as it is bent, walls, a scale.
+// Plays the flow: particles coloured by pressure or speed, the solid as it is bent, walls, a scale. In three dimensions
+// seen from far away, particles behind first; dragging turns the view.
 "use strict";
 (function () {
   const flow = reportData.flow;
@@ -6,7 +7,9 @@
   const canvas = document.getElementById("flow"), pen = canvas.getContext("2d");
   const play = document.getElementById("play"), moment = document.getElementById("moment"), clock = document.getElementById("clock");
   const field = document.getElementById("field"), pace = document.getElementById("pace");
-  const [x0, y0, x1, y1] = flow.view;
+  const side = document.getElementById("side");
+  const D = flow.view.length / 2, low = flow.view.slice(0, D), high = flow.view.slice(D);
+  const middle = low.map((l, d) => (l + high[d]) / 2);
   const end = flow.frames[flow.frames.length - 1].t, begin = flow.frames[0].t;
 
   // Viridis, at nine places: even in lightness, readable in grey and for colour-blind eyes.
@@ -28,45 +31,94 @@
     return frame;
   }
 
-  let shown = Math.floor((flow.frames.length - 1) / 2), playing = false, scale = 1, width = 1, height = 1, left = 0, top = 0;
-  const X = (x) => left + (x - x0) * scale, Y = (y) => top + (y1 - y) * scale;
+  let shown = Math.floor((flow.frames.length - 1) / 2), playing = false, scale = 1, width = 1, height = 1;
+
+  // Where the viewer stands: turned by azimuth about the upward axis, raised by elevation [degrees].
+  let azimuth = 0, elevation = 0, ca = 1, sa = 0, ce = 1, se = 0;
+  function turn(a, e) {
+    azimuth = a; elevation = e;
+    ca = Math.cos((a * Math.PI) / 180); sa = Math.sin((a * Math.PI) / 180);
+    ce = Math.cos((e * Math.PI) / 180); se = Math.sin((e * Math.PI) / 180);
+  }
+  // To the right and upwards as seen by the viewer, and how far away, from the middle of the view [m].
+  function seen(at) {
+    const x = at[0] - middle[0], y = at[1] - middle[1];
+    if (D === 2) return [x, y, 0];
+    const z = at[2] - middle[2], away = y * ca - x * sa;
+    return [x * ca + y * sa, z * ce + away * se, away * ce - z * se];
+  }
+  const X = (u) => width / 2 + u * scale, Y = (v) => height / 2 - v * scale;
+
+  function extent() {
+    let across = 0, up = 0;
+    for (let corner = 0; corner < 1 << D; ++corner) {
+      const [u, v] = seen(low.map((l, d) => (corner & (1 << d) ? high[d] : l)));
+      across = Math.max(across, 2 * u); up = Math.max(up, 2 * v);
+    }
+    return [across, up];
+  }
 
   function fit() {
-    const ratio = window.devicePixelRatio || 1;
+    const ratio = window.devicePixelRatio || 1, [across, up] = extent();
     width = canvas.clientWidth;
-    height = Math.max(220, Math.min((width * (y1 - y0)) / (x1 - x0), window.innerHeight * 0.72));
+    height = Math.max(220, Math.min((width * up) / across, window.innerHeight * 0.72));
     canvas.style.height = height + "px";
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    scale = Math.min(width / (x1 - x0), height / (y1 - y0));
-    left = (width - scale * (x1 - x0)) / 2;
-    top = (height - scale * (y1 - y0)) / 2;
+    scale = Math.min(width / across, height / up);
     paint();
   }
 
-  function path(flat, closed) {
+  function path(flat, closed, dimension) {
     pen.beginPath();
-    for (let i = 0; i + 1 < flat.length; i += 2) pen.lineTo(X(flat[i]), Y(flat[i + 1]));
+    for (let i = 0; i + dimension <= flat.length; i += dimension) {
+      const [u, v] = seen(flat.slice(i, i + dimension));
+      pen.lineTo(X(u), Y(v));
+    }
     if (closed) pen.closePath();
   }
 
   function particles(frame) {
-    const size = Math.max(1, flow.spacing * Math.sqrt(frame.every) * scale), colours = frame.colours[field.selectedIndex];
-    const unit = { x: (x1 - x0) / 65534, y: (y1 - y0) / 65534 }, round = size > 5;
+    const size = Math.max(1, flow.spacing * Math.pow(frame.every, 1 / D) * scale), colours = frame.colours[field.selectedIndex];
+    const round = size > 5, unit = low.map((l, d) => (high[d] - l) / 65534), at = new Array(D);
+    const dot = (u, v) => {
+      const x = X(u), y = Y(v);
+      if (round) { pen.moveTo(x + 0.53 * size, y); pen.arc(x, y, 0.53 * size, 0, 2 * Math.PI); } else pen.rect(x - size / 2, y - size / 2, 1.04 * size, 1.04 * size);
+    };
+    const across = new Float32Array(frame.n), upwards = new Float32Array(frame.n), away = new Float32Array(frame.n), there = [];
+    for (let i = 0; i < frame.n; ++i) {
+      let drawn = true;
+      for (let d = 0; d < D; ++d) {
+        const q = frame.places[D * i + d];
+        drawn = drawn && q !== 65535;
+        at[d] = low[d] + q * unit[d];
+      }
+      if (!drawn) continue;
+      [across[i], upwards[i], away[i]] = seen(at);
+      there.push(i);
+    }
+    if (D === 3) {
+      there.sort((i, j) => away[j] - away[i]);
+      pen.strokeStyle = "rgba(0, 0, 0, 0.3)";  // a rim, so that equal colours do not melt into one
+      pen.lineWidth = 0.7;
+      for (const i of there) {
+        pen.fillStyle = palette[colours ? colours[i] : 100];
+        pen.beginPath();
+        dot(across[i], upwards[i]);
+        pen.fill();
+        if (round) pen.stroke();
+      }
+      return;
+    }
     // By colour, so that the pen changes 256 times and not once a particle.
     const order = Array.from({ length: 256 }, () => []);
-    for (let i = 0; i < frame.n; ++i) order[colours ? colours[i] : 100].push(i);
+    for (const i of there) order[colours ? colours[i] : 100].push(i);
     order.forEach((list, colour) => {
       if (!list.length) return;
       pen.fillStyle = palette[colour];
       pen.beginPath();
-      for (const i of list) {
-        const qx = frame.places[2 * i], qy = frame.places[2 * i + 1];
-        if (qx === 65535 || qy === 65535) continue;
-        const x = X(x0 + qx * unit.x), y = Y(y0 + qy * unit.y);
-        if (round) { pen.moveTo(x + size / 2, y); pen.arc(x, y, 0.53 * size, 0, 2 * Math.PI); } else pen.rect(x - size / 2, y - size / 2, 1.04 * size, 1.04 * size);
-      }
+      for (const i of list) dot(across[i], upwards[i]);
       pen.fill();
     });
   }
@@ -101,19 +153,26 @@
     label("t = " + flow.frames[shown].t.toFixed(4) + " s", 16, 28, "left");
   }
 
+  function walls(opacity) {
+    pen.strokeStyle = css("--wall");
+    pen.lineWidth = D === 3 ? 1.2 : 2.5;
+    pen.globalAlpha = opacity;
+    for (const wall of flow.walls) { path(wall.points, wall.closed, D); pen.stroke(); }
+    pen.globalAlpha = 1;
+  }
+
   function paint() {
     const frame = unpacked(flow.frames[shown]);
     pen.clearRect(0, 0, width, height);
+    if (D === 3) walls(1);
     particles(frame);
     pen.lineJoin = "round";
     for (const outline of frame.outlines) {
-      path(outline, true);
+      path(outline, true, 2);
       pen.fillStyle = css("--solid-fill"); pen.fill();
       pen.strokeStyle = css("--solid-line"); pen.lineWidth = 1.4; pen.stroke();
     }
-    pen.strokeStyle = css("--wall");
-    pen.lineWidth = 2.5;
-    for (const wall of flow.walls) { path(wall.points, wall.closed); pen.stroke(); }
+    walls(D === 3 ? 0.25 : 1);  // in space the water stands before them, and they before the water
     legend();
     moment.value = shown;
     clock.textContent = frame.t.toFixed(4) + " s";
@@ -147,7 +206,22 @@
   moment.addEventListener("input", () => show(Number(moment.value)));
   field.addEventListener("change", paint);
   pace.addEventListener("change", () => run(playing));
-  canvas.addEventListener("click", () => run(!playing));
+  let dragged = false;
+  canvas.addEventListener("click", () => { if (!dragged) run(!playing); dragged = false; });
+  if (D === 3) {
+    const stand = () => turn(...side.value.split(",").map(Number));
+    side.hidden = false;
+    stand();
+    side.addEventListener("change", () => { stand(); fit(); });
+    canvas.style.touchAction = "none";
+    canvas.addEventListener("pointerdown", (event) => { dragged = false; canvas.setPointerCapture(event.pointerId); });
+    canvas.addEventListener("pointermove", (event) => {
+      if (!event.buttons || (!event.movementX && !event.movementY)) return;
+      dragged = true;
+      turn(azimuth - 0.4 * event.movementX, Math.max(-90, Math.min(90, elevation + 0.4 * event.movementY)));
+      paint();
+    });
+  }
   canvas.addEventListener("keydown", (event) => {
     if (event.key === " ") run(!playing);
     else if (event.key === "ArrowRight") show(shown + 1);

@@ -1,0 +1,13 @@
+// The rigid walls of a scene as panels: the place where every kind of [[wall]] is turned into them.
+#pragma once
+#include "io/scene.hpp"
+#include "physics/fluid/walls/panels.hpp"
+
+namespace aquagraph::engine {
+
+// One wall of `panels` for each [[wall]], in the order of the scene. Throws io::SceneError for a face that is not flat
+// or not convex.
+template <int D>
+void add_walls(const io::Scene& scene, fluid::Panels<D>& panels);
+
+}  // namespace aquagraph::engine
