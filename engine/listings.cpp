@@ -43,33 +43,30 @@ class Listing {
         fluid::Fluid<D>& fluid = *model_.fluid;
         group(label + ", lists");
         coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
-        fluid::GhostWalls* walls = model_.walls ? &*model_.walls : nullptr;
+        fluid::GhostWalls<D>* walls = model_.walls ? &*model_.walls : nullptr;
         add(tasks::neighbour_search(fluid, walls, interface, model_.clock, label));
         for (int stage = 0; stage < fluid::stages; ++stage) {
             const std::string name = "stage " + std::to_string(stage + 1);
             group(label + ", " + name);
             boundary(fluid::stage_time[stage], name);
             add(tasks::gradients(fluid, name));
-            if constexpr (D == 2)
-                if (walls) add(tasks::ghost_gradients(fluid, *walls, name));
+            if (walls) add(tasks::ghost_gradients(fluid, *walls, name));
             add(tasks::fluxes(fluid, name));
             add(tasks::runge_kutta_stage(fluid, model_.clock, stage));
         }
         group(label + ", end");
-        if constexpr (D == 2)
-            if (walls) add(tasks::wall_contact(fluid, *walls, label));
+        if (walls) add(tasks::wall_contact(fluid, *walls, label));
         add(tasks::advance_clock(model_.clock, label));
         add(tasks::examine(fluid, label));
     }
 
     // Walls and ghosts at `fraction` of the present step.
     void boundary(double fraction, const std::string& label) {
-        if constexpr (D == 2) {
-            if (!model_.walls) return;
+        if (!model_.walls) return;
+        if constexpr (D == 2)
             if (model_.interface)
                 add(tasks::wall_motion(*model_.walls, *model_.interface, model_.clock, fraction, label));
-            add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
-        }
+        add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
     }
 
     void loads() requires(D == 2) {

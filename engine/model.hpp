@@ -17,7 +17,7 @@ namespace aquagraph::engine {
 template <int D>
 struct Model {
     std::optional<fluid::Fluid<D>> fluid;
-    std::optional<fluid::GhostWalls> walls;
+    std::optional<fluid::GhostWalls<D>> walls;
     std::optional<solid::Solver> solid;
     std::optional<coupling::Interface> interface;
     Clock clock;

@@ -97,7 +97,7 @@ void start_solid(Model<2>& model, const io::Scene& scene) {
 
     // The water's load on the solid at t = 0, which the first solve of CPS reads.
     fluid::Fluid<2>& fluid = *model.fluid;
-    fluid::GhostWalls& walls = *model.walls;
+    fluid::GhostWalls<2>& walls = *model.walls;
     coupling::Interface& interface = *model.interface;
     interface.surface.take(model.solid->positions(), model.solid->velocities());
     interface.surface.place(walls.panels, 0);

@@ -19,7 +19,7 @@ struct Reach {
 template <int D>
 class NeighbourSearchTask {
   public:
-    NeighbourSearchTask(fluid::Fluid<D>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+    NeighbourSearchTask(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, coupling::Interface* interface,
                         const Clock& clock)
         : fluid_(fluid), walls_(walls), interface_(interface), clock_(clock) {}
 
@@ -64,8 +64,7 @@ class NeighbourSearchTask {
 
     void rebuild() {
         auto& particles = fluid_.particles;
-        if constexpr (D == 2)
-            if (walls_) check_walls();
+        if (walls_) check_walls();
         if (!fluid_.closed) fluid_.removed += remove_outside(particles, fluid_.domain);
         if constexpr (D == 2)
             if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
@@ -86,18 +85,18 @@ class NeighbourSearchTask {
     }
 
     fluid::Fluid<D>& fluid_;
-    fluid::GhostWalls* walls_;
+    fluid::GhostWalls<D>* walls_;
     coupling::Interface* interface_;
     const Clock& clock_;
     std::vector<Reach> scratch_;
-    bool built_once_ = false;         // by this task: lists from before the run do not say where walls stood
-    std::vector<fluid::Vec2> built_;  // vertices of walls when the lists were built
+    bool built_once_ = false;           // by this task: lists from before the run do not say where walls stood
+    std::vector<fluid::Vec<D>> built_;  // vertices of walls when the lists were built
 };
 
 }  // namespace
 
 template <int D>
-Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, coupling::Interface* interface,
                       const Clock& clock, const std::string& label) {
     // Held by pointer: the graph copies bodies.
     auto search = std::make_shared<NeighbourSearchTask<D>>(fluid, walls, interface, clock);
@@ -107,9 +106,9 @@ Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls* walls, coupling
             .body = [search] { (*search)(); }};
 }
 
-template Task neighbour_search(fluid::Fluid<2>&, fluid::GhostWalls*, coupling::Interface*, const Clock&,
+template Task neighbour_search(fluid::Fluid<2>&, fluid::GhostWalls<2>*, coupling::Interface*, const Clock&,
                                const std::string&);
-template Task neighbour_search(fluid::Fluid<3>&, fluid::GhostWalls*, coupling::Interface*, const Clock&,
+template Task neighbour_search(fluid::Fluid<3>&, fluid::GhostWalls<3>*, coupling::Interface*, const Clock&,
                                const std::string&);
 
 }  // namespace aquagraph::tasks

@@ -12,7 +12,7 @@ namespace aquagraph::tasks {
 // an open domain, re-sorts the others, mirrors them anew and renews the lists and everything that is indexed like them.
 // Throws SickParticle (tasks/stepping.hpp) if a particle has passed through a wall.
 template <int D>
-Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls* walls, coupling::Interface* interface,
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, coupling::Interface* interface,
                       const Clock& clock, const std::string& label);
 
 }  // namespace aquagraph::tasks

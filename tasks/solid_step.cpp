@@ -34,7 +34,7 @@ Task interface_gradients(fluid::Fluid<2>& fluid, const coupling::Interface& inte
             }};
 }
 
-Task interface_loads(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, coupling::Interface& interface) {
+Task interface_loads(fluid::Fluid<2>& fluid, const fluid::GhostWalls<2>& walls, coupling::Interface& interface) {
     return {.name = "interface loads",
             .reads = {resource::walls, resource::fluid_lists, resource::fluid_state, resource::fluid_ghosts,
                       resource::fluid_gradients, resource::ghost_gradients},

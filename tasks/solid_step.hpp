@@ -19,7 +19,7 @@ Task newton_solve(solid::Solver& solid, const coupling::Interface& interface, co
 // Gradients of the particles that the load reads, at the end of the fluid's steps.
 Task interface_gradients(fluid::Fluid<2>& fluid, const coupling::Interface& interface);
 // The fluid's load on every wet node.
-Task interface_loads(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, coupling::Interface& interface);
+Task interface_loads(fluid::Fluid<2>& fluid, const fluid::GhostWalls<2>& walls, coupling::Interface& interface);
 // Hands loads to the solid and wet nodes to the fluid, and starts a new cycle.
 Task exchange(const solid::Solver& solid, coupling::Interface& interface, Clock& clock);
 

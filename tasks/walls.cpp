@@ -6,12 +6,13 @@
 namespace aquagraph::tasks {
 
 namespace {
-fluid::Vec2 gravity_of(const fluid::Fluid<2>& fluid) {
-    return {fluid.flux.gravity[0], fluid.flux.gravity[1]};
+template <int D>
+fluid::Vec<D> gravity_of(const fluid::Fluid<D>& fluid) {
+    return fluid::Vec<D>(fluid.flux.gravity);
 }
 }  // namespace
 
-Task wall_motion(fluid::GhostWalls& walls, const coupling::Interface& interface, const Clock& clock, double fraction,
+Task wall_motion(fluid::GhostWalls<2>& walls, const coupling::Interface& interface, const Clock& clock, double fraction,
                  const std::string& label) {
     return {.name = "wall motion (" + label + ")",
             .reads = {resource::clock_step, resource::interface_motion, resource::fluid_lists},
@@ -22,7 +23,8 @@ Task wall_motion(fluid::GhostWalls& walls, const coupling::Interface& interface,
             }};
 }
 
-Task ghost_state(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label) {
+template <int D>
+Task ghost_state(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label) {
     return {.name = "ghosts (" + label + ")",
             .reads = {resource::walls, resource::fluid_lists, resource::fluid_state},
             .writes = {resource::fluid_ghosts},
@@ -33,14 +35,16 @@ Task ghost_state(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const s
             }};
 }
 
-Task wall_contact(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label) {
+template <int D>
+Task wall_contact(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label) {
     return {.name = "wall contact (" + label + ")",
             .reads = {resource::walls, resource::fluid_lists},
             .writes = {resource::fluid_state},
             .body = [&fluid, &walls] { fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing); }};
 }
 
-Task ghost_gradients(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label) {
+template <int D>
+Task ghost_gradients(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label) {
     return {.name = "ghost gradients (" + label + ")",
             .reads = {resource::walls, resource::fluid_lists, resource::fluid_state, resource::fluid_gradients},
             .writes = {resource::ghost_gradients},
@@ -50,5 +54,12 @@ Task ghost_gradients(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, con
                 });
             }};
 }
+
+template Task ghost_state(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
+template Task ghost_state(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
+template Task wall_contact(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
+template Task wall_contact(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
+template Task ghost_gradients(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
+template Task ghost_gradients(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
 
 }  // namespace aquagraph::tasks

@@ -9,12 +9,15 @@
 namespace aquagraph::tasks {
 
 // Moves the wet panels to `fraction` of the present step (0 … 1), extrapolated from the last exchange.
-Task wall_motion(fluid::GhostWalls& walls, const coupling::Interface& interface, const Clock& clock, double fraction,
+Task wall_motion(fluid::GhostWalls<2>& walls, const coupling::Interface& interface, const Clock& clock, double fraction,
                  const std::string& label);
 // Places the ghosts and gives them their parents' state.
-Task ghost_state(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label);
+template <int D>
+Task ghost_state(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
 // After the last stage: stops lone particles at the walls (GhostWalls::hold_back).
-Task wall_contact(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label);
-Task ghost_gradients(fluid::Fluid<2>& fluid, const fluid::GhostWalls& walls, const std::string& label);
+template <int D>
+Task wall_contact(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
+template <int D>
+Task ghost_gradients(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
 
 }  // namespace aquagraph::tasks

@@ -3,8 +3,9 @@
 namespace aquagraph::fluid {
 
 template <int D>
-void rebuild_lists(Fluid<D>& fluid, GhostWalls* walls, BlockLoop loop) {
+void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop) {
     Particles<D>& particles = fluid.particles;
+    if (walls && walls->periodic.any()) walls->periodic.wrap(particles);
     fluid.reorder.apply(particles, fluid.order.sort(particles.x, particles.count, fluid.spacing));
     for (std::size_t block = 0; block < fluid.blocks(); ++block) {
         // Pressure, impedance and volume follow from what has been re-sorted.
@@ -14,18 +15,12 @@ void rebuild_lists(Fluid<D>& fluid, GhostWalls* walls, BlockLoop loop) {
             for (std::size_t d = 0; d < D; ++d) particles.x_built[d][i] = particles.x[d][i];
     }
     fluid.runge_kutta.resize(particles);
-    const PairFilter<D>* visibility = nullptr;
-    if constexpr (D == 2)
-        if (walls) {
-            walls->rebuild(particles, fluid.spacing, fluid.lists.reach(),
-                           {fluid.flux.gravity[0], fluid.flux.gravity[1]});
-            visibility = &walls->visibility;
-        }
-    fluid.search.build(particles, fluid.lists, visibility, loop);
+    if (walls) walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), Vec<D>(fluid.flux.gravity));
+    fluid.search.build(particles, fluid.lists, walls ? &walls->visibility : nullptr, loop);
     ++fluid.rebuilds;
 }
 
-template void rebuild_lists(Fluid<2>&, GhostWalls*, BlockLoop);
-template void rebuild_lists(Fluid<3>&, GhostWalls*, BlockLoop);
+template void rebuild_lists(Fluid<2>&, GhostWalls<2>*, BlockLoop);
+template void rebuild_lists(Fluid<3>&, GhostWalls<3>*, BlockLoop);
 
 }  // namespace aquagraph::fluid

@@ -5,9 +5,9 @@
 
 namespace aquagraph::fluid {
 
-// Re-sorts the particles in space, mirrors them anew and makes new lists. walls may be null. Vertices of walls must
-// stand where they are now.
+// Brings particles that have left a periodic domain back into it, re-sorts them in space, mirrors them anew and makes
+// new lists. walls may be null. Vertices of walls must stand where they are now.
 template <int D>
-void rebuild_lists(Fluid<D>& fluid, GhostWalls* walls, BlockLoop loop);
+void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop);
 
 }  // namespace aquagraph::fluid

@@ -50,7 +50,7 @@ Vec2 load_of(const Built& built) {
 
 bool belongs_to_body(const engine::Model<2>& model, const fluid::Ghost& ghost) {
     if (ghost.corner < 0) return model.walls->panels.panels[std::size_t(ghost.panel)].wet;
-    const fluid::Corner& corner = model.walls->corners[std::size_t(ghost.corner)];
+    const fluid::Corner<2>& corner = model.walls->corners[std::size_t(ghost.corner)];
     return model.walls->panels.panels[std::size_t(corner.panel[0])].wet ||
            model.walls->panels.panels[std::size_t(corner.panel[1])].wet;
 }

@@ -18,7 +18,7 @@ inline double limited(double a, double b) {  // minmod
 }
 
 inline bool may_see(const engine::Model<2>& model, std::size_t i, std::size_t lane) {
-    const fluid::Visibility& visibility = model.walls->visibility;
+    const fluid::Visibility<2>& visibility = model.walls->visibility;
     if (visibility.sees_everything(i)) return true;
     const auto bit = std::uint8_t(1u << (lane % fluid::W));
     return visibility.lanes_seen(i, lane / fluid::W, bit) != 0;

@@ -8,8 +8,8 @@
 
 namespace aquagraph::fluid::test {
 
-inline GhostWalls make_walls(Panels<2> panels) {
-    GhostWalls walls;
+inline GhostWalls<2> make_walls(Panels<2> panels) {
+    GhostWalls<2> walls;
     walls.panels = std::move(panels);
     walls.panels.update_geometry();
     walls.panels.find_joints();

@@ -43,42 +43,28 @@ class Driver {
     explicit Driver(Fluid<D> fluid) : fluid(std::move(fluid)) {}
 
     Fluid<D> fluid;
-    std::optional<GhostWalls> walls;                             // 2D only
-    std::function<void(Panels<2>& panels, double time)> motion;  // places vertices and sets their velocities
+    std::optional<GhostWalls<D>> walls;
+    std::function<void(Panels<D>& panels, double time)> motion;  // places vertices and sets their velocities
     double time = 0;
 
     // Order, ghosts and lists.
     void rebuild(BlockLoop loop = serial_loop) {
-        if constexpr (D == 2) {
-            if (walls && motion) motion(walls->panels, time);
-            rebuild_lists(fluid, walls ? &*walls : nullptr, loop);
-            if (walls) built_ = walls->panels.position;
-        } else {
-            auto& s = fluid.particles;
-            fluid.reorder.apply(s, fluid.order.sort(s.x, s.count, fluid.spacing));
-            for (std::size_t block = 0; block < fluid.blocks(); ++block)
-                update_state(s, fluid.tait, fluid.lanes(block));
-            for (int d = 0; d < D; ++d) std::copy(s.x[d].begin(), s.x[d].begin() + long(s.count), s.x_built[d].begin());
-            fluid.runge_kutta.resize(s);
-            fluid.search.build(s, fluid.lists, nullptr, loop);
-            ++fluid.rebuilds;
-        }
+        if (walls && motion) motion(walls->panels, time);
+        rebuild_lists(fluid, walls ? &*walls : nullptr, loop);
+        if (walls) built_ = walls->panels.position;
     }
 
     // Ghosts, gradients and rates of the present state, walls as they are at `at`.
     void rates(double at, BlockLoop loop = serial_loop) {
         auto& s = fluid.particles;
-        if constexpr (D == 2) {
-            if (walls) {
-                if (motion) motion(walls->panels, at);
-                walls->update_geometry();
-                loop(walls->blocks(), [&](std::size_t block) { walls->update_state(s, gravity(), block); });
-            }
+        if (walls) {
+            if (motion) motion(walls->panels, at);
+            walls->update_geometry();
+            loop(walls->blocks(), [&](std::size_t block) { walls->update_state(s, gravity(), block); });
         }
         loop(fluid.blocks(),
              [&](std::size_t block) { compute_gradients(s, fluid.lists, fluid.kernel, fluid.lanes(block)); });
-        if constexpr (D == 2)
-            if (walls) loop(walls->blocks(), [&](std::size_t block) { walls->update_gradients(s, gravity(), block); });
+        if (walls) loop(walls->blocks(), [&](std::size_t block) { walls->update_gradients(s, gravity(), block); });
         loop(fluid.blocks(), [&](std::size_t block) {
             compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait.reference_density, fluid.lanes(block));
         });
@@ -92,8 +78,7 @@ class Driver {
                 advance_stage(fluid.particles, fluid.runge_kutta, fluid.tait, stage, dt, fluid.lanes(block));
             });
         }
-        if constexpr (D == 2)
-            if (walls) fluid.held_back += walls->hold_back(fluid.particles, fluid.spacing);
+        if (walls) fluid.held_back += walls->hold_back(fluid.particles, fluid.spacing);
         time += dt;
     }
 
@@ -109,7 +94,7 @@ class Driver {
         while (time < until * (1 - 1e-12)) step(std::min(largest_step(), until - time), loop);
     }
 
-    Vec2 gravity() const { return {fluid.flux.gravity[0], fluid.flux.gravity[1]}; }
+    Vec<D> gravity() const { return Vec<D>(fluid.flux.gravity); }
 
   private:
     bool lists_hold(double dt) const {
@@ -124,20 +109,18 @@ class Driver {
             speed2 = std::max(speed2, v2);
         }
         double moved = std::sqrt(displacement2) + dt * std::sqrt(speed2);
-        if constexpr (D == 2) {
-            if (walls) {
-                double wall2 = 0, wall_speed2 = 0;
-                for (std::size_t k = 0; k < built_.size(); ++k) {
-                    wall2 = std::max(wall2, (walls->panels.position[k] - built_[k]).squaredNorm());
-                    wall_speed2 = std::max(wall_speed2, walls->panels.velocity[k].squaredNorm());
-                }
-                moved += std::sqrt(wall2) + dt * std::sqrt(wall_speed2);
+        if (walls) {
+            double wall2 = 0, wall_speed2 = 0;
+            for (std::size_t k = 0; k < built_.size(); ++k) {
+                wall2 = std::max(wall2, (walls->panels.position[k] - built_[k]).squaredNorm());
+                wall_speed2 = std::max(wall_speed2, walls->panels.velocity[k].squaredNorm());
             }
+            moved += std::sqrt(wall2) + dt * std::sqrt(wall_speed2);
         }
         return moved < 0.5 * fluid.lists.skin;
     }
 
-    std::vector<Vec2> built_;
+    std::vector<Vec<D>> built_;
 };
 
 }  // namespace aquagraph::fluid::test

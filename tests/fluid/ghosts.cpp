@@ -58,7 +58,7 @@ void check_images(bool no_slip) {
     Particles<2> s = place<2>(rows_above(wall, 0.3, random), spacing);
     disorder(s, spacing, random);
     for (std::size_t i = 0; i < s.count; ++i) s.volume[i] = s.mass[i] / (1000 + s.deviation[i]);
-    GhostWalls walls = make_walls(wall.panels(no_slip));
+    GhostWalls<2> walls = make_walls(wall.panels(no_slip));
     walls.rebuild(s, spacing, reach, gravity);
     CHECK(walls.corners.empty());
 
@@ -96,7 +96,7 @@ TEST_CASE("ghosts follow their parents and their wall") {
     const SlantedWall wall;
     Random random;
     Particles<2> s = place<2>(rows_above(wall, 0.3, random), spacing);
-    GhostWalls walls = make_walls(wall.panels(false));
+    GhostWalls<2> walls = make_walls(wall.panels(false));
     walls.rebuild(s, spacing, reach, Vec2::Zero());
     const Vec2 wall_moves(0.02, -0.013);
     for (std::size_t i = 0; i < s.count; ++i) s.x[0][i] += 0.01 * random();
@@ -179,7 +179,7 @@ TEST_CASE("ghosts of a right-angled, moving corner are point reflections") {
     const Vec2 gravity(0.5, -9.81), v_w(0.8, -0.3);
     Particles<2> s = place<2>(lattice<2>({20, 20}, spacing, 0.3, random), spacing);
     disorder(s, spacing, random);
-    GhostWalls walls = make_walls(tank(20 * spacing, 2));
+    GhostWalls<2> walls = make_walls(tank(20 * spacing, 2));
     for (Vec2& v : walls.panels.velocity) v = v_w;
     walls.rebuild(s, spacing, reach, gravity);
     std::size_t reflected[2] = {0, 0}, expected[2] = {0, 0};
@@ -211,7 +211,7 @@ TEST_CASE("gradients are mirrored, but for the weight of the water") {
         disorder(s, spacing, random);
         Panels<2> panels = tank(20 * spacing, 2);
         for (Panel<2>& panel : panels.panels) panel.no_slip = no_slip;
-        GhostWalls walls = make_walls(panels);
+        GhostWalls<2> walls = make_walls(panels);
         walls.rebuild(s, spacing, reach, gravity);
         s.grad_p[0][5] = s.grad_p[1][5] = 0;  // too bare to have one
         for (std::size_t block = 0; block < walls.blocks(); ++block) walls.update_gradients(s, gravity, block);

@@ -10,7 +10,7 @@ namespace aquagraph::coupling {
 using fluid::W;
 
 void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const fluid::NeighbourLists<2>& lists,
-                                    const fluid::GhostWalls& walls) {
+                                    const fluid::GhostWalls<2>& walls) {
     const std::size_t first_ghost_cluster = particles.clusters();
     const double reach2 = lists.reach() * lists.reach();
     const auto is_wet = [&](int panel) { return panel >= 0 && walls.panels.panels[std::size_t(panel)].wet; };
@@ -43,7 +43,7 @@ void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const 
         const auto& list = lists.blocks[block];
         const fluid::LaneRange lanes = lanes_of_block(particles, block);
         for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
-            if (!walls.grid.at(particles.x[0][i], particles.x[1][i])) continue;  // no ghost in sight
+            if (!walls.grid.at(Vec2(particles.x[0][i], particles.x[1][i]))) continue;  // no ghost in sight
             const auto from = list.particle[i - lanes.begin], to = list.particle[i - lanes.begin + 1];
             for (auto k = from.open_end; k < to.open_end; ++k)
                 if (list.open[k] >= first_ghost_cluster) visit(i, list.open[k], 0xff);
@@ -104,7 +104,7 @@ void ForceConservativeLoad::compute(const fluid::Particles<2>& particles, const 
     }
 }
 
-void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const fluid::GhostWalls& walls,
+void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const fluid::GhostWalls<2>& walls,
                                    std::vector<Vec2>& vertex_forces) const {
     vertex_forces.assign(walls.panels.position.size(), Vec2::Zero());
     for (std::size_t k = 0; k < sources_.size(); ++k) {
@@ -112,8 +112,8 @@ void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const f
         // A corner's ghost acts at the corner: there the wall velocity that it gives to the fluid is taken.
         const fluid::Ghost& ghost = walls.ghosts[source.ghost];
         const std::size_t p = std::size_t(source.panel);
-        const Vec2 x = ghost.corner < 0 ? Vec2(particles.x[0][ghost.parent], particles.x[1][ghost.parent])
-                                        : walls.corners[std::size_t(ghost.corner)].point;
+        const Vec2 x =
+            ghost.corner < 0 ? walls.before_wall(particles, ghost) : walls.corners[std::size_t(ghost.corner)].point;
         const double s =
             std::clamp((x - walls.panels.start(p)).dot(walls.panels.tangent[p]) / walls.panels.measure[p], 0.0, 1.0);
         vertex_forces[std::size_t(walls.panels.panels[p].vertex[0])] += (1 - s) * force_[k];

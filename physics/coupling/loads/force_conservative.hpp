@@ -20,7 +20,7 @@ class ForceConservativeLoad {
   public:
     // Collects the pairs that cross wet panels, after the neighbour lists have been built.
     void rebuild(const fluid::Particles<2>& particles, const fluid::NeighbourLists<2>& lists,
-                 const fluid::GhostWalls& walls);
+                 const fluid::GhostWalls<2>& walls);
 
     // Clusters of fluid particles whose gradients the load reads, ascending.
     const std::vector<std::uint32_t>& clusters() const { return clusters_; }
@@ -31,7 +31,7 @@ class ForceConservativeLoad {
     void compute(const fluid::Particles<2>& particles, const fluid::WendlandC2<2>& kernel, bool muscl,
                  std::size_t block);
     // Adds them up at the vertices of the panels [N] (per metre of depth in 2D), in a fixed order.
-    void spread(const fluid::Particles<2>& particles, const fluid::GhostWalls& walls,
+    void spread(const fluid::Particles<2>& particles, const fluid::GhostWalls<2>& walls,
                 std::vector<Vec2>& vertex_forces) const;
 
   private:

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/fluid/walls/panel_grid.hpp"
+
 namespace aquagraph::fluid {
 
 namespace {
@@ -13,18 +15,27 @@ double turn(const Panels<2>& panels, std::size_t k, std::size_t l) {
 }
 }  // namespace
 
-void Corner::update(const Panels<2>& panels) {
-    point = panels.position[std::size_t(vertex)];
-    velocity = panels.velocity[std::size_t(vertex)];
-    if (floor >= 0) {
-        const auto f = std::size_t(floor);
-        point -= (point - panels.start(f)).dot(panels.normal[f]) * panels.normal[f];
+template <int D>
+void Corner<D>::update(const Panels<D>& walls) {
+    const auto place = [&](int v) {
+        Vec<D> x = walls.position[std::size_t(v)];
+        for (const int f : floor)
+            if (f >= 0) x -= walls.height(std::size_t(f), x) * walls.normal[std::size_t(f)];
+        return x;
+    };
+    point = place(vertex[0]);
+    velocity = walls.velocity[std::size_t(vertex[0])];
+    if constexpr (D == 3) {
+        edge = place(vertex[1]) - point;
+        edge_velocity = walls.velocity[std::size_t(vertex[1])] - velocity;
     }
 }
 
-std::vector<Corner> find_corners(const Panels<2>& panels, double touching) {
-    std::vector<Corner> corners;
-    const auto add = [&](Corner corner) {
+template <>
+std::vector<Corner<2>> find_corners(const Panels<2>& panels, const PanelGrid<2>& grid, const std::vector<int>&,
+                                    double touching) {
+    std::vector<Corner<2>> corners;
+    const auto add = [&](Corner<2> corner) {
         corner.update(panels);
         corners.push_back(corner);
     };
@@ -32,11 +43,9 @@ std::vector<Corner> find_corners(const Panels<2>& panels, double touching) {
         const auto k = std::size_t(joint.panel[0]), l = std::size_t(joint.panel[1]);
         const double angle = turn(panels, k, l);
         if (angle < least_concave_turn) continue;
-        Corner corner{};
-        corner.panel[0] = joint.panel[0];
-        corner.panel[1] = joint.panel[1];
-        corner.vertex = panels.panels[k].vertex[1];
-        corner.floor = -1;
+        Corner<2> corner{};
+        corner.panel = {joint.panel[0], joint.panel[1]};
+        corner.vertex = {panels.panels[k].vertex[1]};
         corner.sharp = angle > std::numbers::pi / 4;
         corner.away[0] = -panels.tangent[k];
         corner.away[1] = panels.tangent[l];
@@ -45,11 +54,14 @@ std::vector<Corner> find_corners(const Panels<2>& panels, double touching) {
     // A vertex of k near the inside of a panel m of another wall; a body does not touch itself.
     for (std::size_t k = 0; k < panels.size(); ++k) {
         for (const bool at_end : {false, true}) {
-            const int vertex = at_end ? panels.panels[k].vertex[1] : panels.panels[k].vertex[0];
+            const int vertex = panels.panels[k].vertex[at_end ? 1 : 0];
             const Vec2& x = panels.position[std::size_t(vertex)];
             const Vec2 away = at_end ? Vec2(-panels.tangent[k]) : panels.tangent[k];
-            for (std::size_t m = 0; m < panels.size(); ++m) {
-                if (panels.panels[m].wall == panels.panels[k].wall) continue;
+            const auto* cell = grid.at(x);
+            if (!cell) continue;
+            for (std::size_t entry = 0; entry < cell->panel.size(); ++entry) {
+                const auto m = std::size_t(cell->panel[entry]);
+                if (cell->copy[entry] != 0 || panels.panels[m].wall == panels.panels[k].wall) continue;
                 const Vec2 from = x - panels.start(m);
                 const double distance = from.dot(panels.normal[m]), s = from.dot(panels.tangent[m]);
                 if (std::fabs(distance) > touching || s <= 1e-6 * panels.measure[m] ||
@@ -57,11 +69,10 @@ std::vector<Corner> find_corners(const Panels<2>& panels, double touching) {
                     continue;
                 const double rise = away.dot(panels.normal[m]), opening = panels.tangent[m].dot(panels.normal[k]);
                 if (rise < 0.34 || std::fabs(opening) < 0.34) continue;  // less than 20° between them: a closing gap
-                Corner corner{};
-                corner.panel[0] = int(k);
-                corner.panel[1] = int(m);
-                corner.vertex = vertex;
-                corner.floor = int(m);
+                Corner<2> corner{};
+                corner.panel = {int(k), int(m)};
+                corner.vertex = {vertex};
+                corner.floor[0] = int(m);
                 corner.away[0] = away;
                 corner.away[1] = opening > 0 ? panels.tangent[m] : Vec2(-panels.tangent[m]);
                 corner.sharp = corner.away[0].dot(corner.away[1]) > -std::numbers::sqrt2 / 2;
@@ -71,5 +82,8 @@ std::vector<Corner> find_corners(const Panels<2>& panels, double touching) {
     }
     return corners;
 }
+
+template struct Corner<2>;
+template struct Corner<3>;
 
 }  // namespace aquagraph::fluid

@@ -1,29 +1,48 @@
 #include "physics/fluid/walls/ghosts.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 namespace aquagraph::fluid {
 
-void GhostWalls::update_geometry() {
+namespace {
+template <int D>
+Vec<D> at(const Vectors<D>& values, std::size_t i) {
+    Vec<D> value;
+    for (int d = 0; d < D; ++d) value[d] = values[std::size_t(d)][i];
+    return value;
+}
+}  // namespace
+
+template <int D>
+void GhostWalls<D>::update_geometry() {
     panels.update_geometry();
-    for (Corner& corner : corners) corner.update(panels);
+    for (Corner<D>& corner : corners) corner.update(panels);
 }
 
-void GhostWalls::rebuild(Particles<2>& particles, double spacing, double reach, const Vec2& gravity) {
+template <int D>
+void GhostWalls<D>::rebuild(Particles<D>& particles, double spacing, double reach, const Vec<D>& gravity) {
+    periodic.check(reach);
     panels.update_geometry();
-    patch = smooth_patches(panels);
-    corners = find_corners(panels, 0.5 * spacing);
-    grid.build(panels, patch, reach);
     least_depth_ = 0.05 * spacing;
+    corner_slack_ = 1e-9 * spacing;
+    if (!grid.knows(panels)) {
+        patch = smooth_patches(panels);
+        facet_ = flat_facets(panels);
+    }
+    if (grid.build(panels, patch, reach, periodic, particles)) {
+        corners = find_corners(panels, grid, facet_, 0.5 * spacing);
+        grid.add_corners(corners);
+        find_owners(spacing, reach);
+    }
     collect(particles, spacing, reach);
 
-    image_[0].resize(unsorted_.size());
-    image_[1].resize(unsorted_.size());
+    for (auto& along : image_) along.resize(unsorted_.size());
     for (std::size_t g = 0; g < unsorted_.size(); ++g) {
-        const Vec2 image = mirror(particles, unsorted_[g]).image;
-        image_[0][g] = image.x();
-        image_[1][g] = image.y();
-        if (sticks_out(particles, unsorted_[g], image)) grid.look_closely_around(image);
+        const Vec<D> image = place(particles, unsorted_[g]);
+        for (int d = 0; d < D; ++d) image_[std::size_t(d)][g] = image[d];
+        if (sticks_out(particles, unsorted_[g], image)) grid.look_closely_around(image, panels);
     }
     const auto order = order_.sort(image_, unsorted_.size(), spacing);
     ghosts.resize(unsorted_.size());
@@ -31,91 +50,234 @@ void GhostWalls::rebuild(Particles<2>& particles, double spacing, double reach, 
 
     particles.resize(particles.count, ghosts.size());
     for (std::size_t block = 0; block < blocks(); ++block) update_state(particles, gravity, block);
-    visibility.prepare(particles, panels, grid, ghosts, corners, patch, 0.5 * spacing);
+    visibility.prepare(particles, panels, grid, periodic, ghosts, corners, patch, 0.5 * spacing);
 }
 
 // True if the image lies beyond another side of the body behind the panel.
-bool GhostWalls::sticks_out(const Particles<2>& particles, const Ghost& ghost, const Vec2& image) const {
+template <int D>
+bool GhostWalls<D>::sticks_out(const Particles<D>& particles, const Ghost& ghost, const Vec<D>& image) const {
     if (ghost.panel < 0) return false;
-    const Vec2 x(particles.x[0][ghost.parent], particles.x[1][ghost.parent]);
-    const PanelGrid::Cell* cell = grid.at(x.x(), x.y());
-    if (!cell || cell->convex_room) return false;
+    const Vec<D> copy = periodic.shift(ghost.copy);
+    const Vec<D> x = before_wall(particles, ghost);
     const auto panel = std::size_t(ghost.panel);
-    const Vec2 foot = x - (x - panels.start(panel)).dot(panels.normal[panel]) * panels.normal[panel];
-    return PanelGrid::first_crossing(*cell, foot, image, patch[panel]).entry >= 0;
+    const Vec<D> foot = x - panels.height(panel, x) * panels.normal[panel] + periodic.shift(ghost.wall_copy);
+    const auto* cell = grid.at(foot);
+    if (!cell || cell->convex_room) return false;
+    return PanelGrid<D>::first_crossing(*cell, foot, image - copy, patch[panel]).entry >= 0;
 }
 
-void GhostWalls::collect(const Particles<2>& particles, double spacing, double reach) {
-    unsorted_.clear();
-    const double tolerance = 0.5 * spacing;
-    for (std::size_t j = 0; j < particles.count; ++j) {
-        const Vec2 x(particles.x[0][j], particles.x[1][j]);
-        const PanelGrid::Cell* cell = grid.at(x.x(), x.y());
-        if (!cell) continue;
-        for (const int k : cell->panel) {
-            const auto panel = std::size_t(k);
-            const Vec2 from = x - panels.start(panel);
-            const double d = from.dot(panels.normal[panel]), s = from.dot(panels.tangent[panel]);
-            if (d <= -tolerance || d >= reach || s < 0 || s >= panels.measure[panel]) continue;
-            if (!cell->convex_room && d > 0) {
-                // Something between the particle and the foot of its perpendicular hides the panel from it.
-                const Vec2 foot = x - (d - 1e-6 * spacing) * panels.normal[panel];
-                if (PanelGrid::first_crossing(*cell, x, foot).entry >= 0) continue;
+// Which part of its plane each triangle mirrors. Between triangles of one facet feet may lie on either, and the first
+// one takes them; at the border of a facet one of two that lie there in one plane does: the one on the side of growing
+// x (y, z).
+template <int D>
+void GhostWalls<D>::find_owners(double spacing, double reach) {
+    if constexpr (D == 3) {
+        owned_from_.resize(panels.size());
+        goes_on_.assign(panels.size(), {});
+        const auto opposite = [&](std::size_t k, const Joint<3>& joint) {
+            // The vertex of k that is not on the joint: the farthest from its line.
+            const Vec3 &a = panels.position[std::size_t(joint.vertex[0])],
+                       &b = panels.position[std::size_t(joint.vertex[1])];
+            std::size_t farthest = 0;
+            double largest = -1;
+            for (std::size_t v = 0; v < 3; ++v) {
+                const double distance = (panels.vertex(k, v) - a).cross(Vec3(b - a)).squaredNorm();
+                if (distance > largest) {
+                    largest = distance;
+                    farthest = v;
+                }
             }
-            unsorted_.push_back({std::uint32_t(j), k, -1});
+            return farthest;
+        };
+        std::vector<std::array<bool, 3>> inner(panels.size(), {false, false, false});
+        for (const Joint<3>& joint : panels.joints) {
+            for (const std::size_t side : {0u, 1u}) {
+                const auto k = std::size_t(joint.panel[side]), l = std::size_t(joint.panel[1 - side]);
+                const std::size_t v = opposite(k, joint);
+                if (facet_[k] == facet_[l]) inner[k][v] = true;
+                if (patch[k] == patch[l]) goes_on_[k][v] = true;
+            }
         }
-        for (std::size_t c = 0; c < corners.size(); ++c) {
-            const Corner& corner = corners[c];
-            const Vec2 from = x - corner.point;
-            if (from.squaredNorm() >= reach * reach) continue;
-            const auto k = std::size_t(corner.panel[0]), l = std::size_t(corner.panel[1]);
-            if (from.dot(corner.away[0]) < 0 || from.dot(corner.away[1]) < 0 ||
-                from.dot(panels.normal[k]) <= -tolerance || from.dot(panels.normal[l]) <= -tolerance)
-                continue;
-            unsorted_.push_back({std::uint32_t(j), -1, std::int32_t(c)});
+        for (std::size_t k = 0; k < panels.size(); ++k) {
+            for (std::size_t v = 0; v < 3; ++v) {
+                const Vec3 &a = panels.vertex(k, (v + 1) % 3), &b = panels.vertex(k, (v + 2) % 3);
+                const double height = 2 * panels.measure[k] / (b - a).norm();
+                const Vec3 inward = panels.normal[k].cross(Vec3(b - a).normalized());
+                bool owner = true;
+                for (const int d : {2, 1, 0})
+                    if (std::fabs(inward[d]) > 1e-6) owner = inward[d] > 0;
+                owned_from_[k][v] = (inner[k][v] ? -1e-3 * reach : owner ? -1e-9 * spacing : 1e-9 * spacing) / height;
+            }
         }
+    } else {
+        static_cast<void>(spacing);
+        static_cast<void>(reach);
     }
 }
 
-GhostWalls::Mirror GhostWalls::mirror(const Particles<2>& particles, const Ghost& ghost) const {
-    const Vec2 x(particles.x[0][ghost.parent], particles.x[1][ghost.parent]);
-    Mirror m;
-    if (ghost.corner >= 0) {
-        const Corner& corner = corners[std::size_t(ghost.corner)];
-        const Vec2 from = x - corner.point;
-        m.image = corner.point - from;
-        m.wall_velocity = corner.velocity;
-        m.S = -Eigen::Matrix2d::Identity();
-        m.T = m.S;
-        if (!corner.sharp) {  // nearly flat: like a plane across the line to the corner
-            const Vec2 e = from.normalized();
-            m.T = Eigen::Matrix2d::Identity() - 2 * e * e.transpose();
-        }
-        return m;
+template <int D>
+bool GhostWalls<D>::owns(std::size_t panel, const Vec<D>& x) const {
+    if constexpr (D == 2) {
+        const double s = (x - panels.start(panel)).dot(panels.tangent[panel]);
+        return s >= 0 && s < panels.measure[panel];
+    } else {
+        const auto shape = panels.shape_functions(panel, x);
+        const auto& from = owned_from_[panel];
+        return shape[0] >= from[0] && shape[1] >= from[1] && shape[2] >= from[2];
     }
-    const auto k = std::size_t(ghost.panel);
-    const Panel<2>& panel = panels.panels[k];
-    const Vec2& n = panels.normal[k];
-    const Vec2 from = x - panels.start(k);
-    const double s = std::clamp(from.dot(panels.tangent[k]) / panels.measure[k], 0.0, 1.0);
-    const Vec2 &v_first = panels.velocity[std::size_t(panel.vertex[0])],
-               &v_second = panels.velocity[std::size_t(panel.vertex[1])];
-    m.wall_velocity = (1 - s) * v_first + s * v_second;
-    m.S = Eigen::Matrix2d::Identity() - 2 * n * n.transpose();
-    m.T = panel.no_slip ? Eigen::Matrix2d(-Eigen::Matrix2d::Identity()) : m.S;
-    m.image = x - 2 * std::max(from.dot(n), least_depth_) * n;
+}
+
+template <int D>
+void GhostWalls<D>::collect(const Particles<D>& particles, double spacing, double reach) {
+    unsorted_.clear();
+    for (std::size_t j = 0; j < particles.count; ++j) {
+        const Vec<D> x = at<D>(particles.x, j);
+        const std::size_t first = unsorted_.size();
+        if (const auto* cell = grid.at(x)) {
+            collect_panels(j, x, *cell, spacing, reach);
+            collect_corners(j, x, *cell, spacing, reach);
+        }
+        if (!periodic.any()) continue;
+        const std::size_t last = unsorted_.size();
+        collect_images(particles, {std::uint32_t(j), -1}, reach);
+        for (std::size_t g = first; g < last; ++g) collect_images(particles, Ghost(unsorted_[g]), reach);
+    }
+}
+
+template <int D>
+void GhostWalls<D>::collect_panels(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell,
+                                   double spacing, double reach) {
+    const double tolerance = 0.5 * spacing;
+    mirrored_by_.clear();
+    for (std::size_t entry = 0; entry < cell.panel.size(); ++entry) {
+        const auto panel = std::size_t(cell.panel[entry]);
+        const int copy = cell.copy[entry];
+        const Vec<D> there = copy == 0 ? x : Vec<D>(x - periodic.shift(copy));
+        const double d = panels.height(panel, there);
+        if (d <= -tolerance || d >= reach || !owns(panel, there)) continue;
+        if (D == 3) {  // one ghost per facet
+            const std::pair<int, int> facet{facet_[panel], copy};
+            if (std::find(mirrored_by_.begin(), mirrored_by_.end(), facet) != mirrored_by_.end()) continue;
+            mirrored_by_.push_back(facet);
+        }
+        if (!cell.convex_room && d > 0) {
+            // Something between the particle and the foot of its perpendicular hides the panel from it.
+            const Vec<D> foot = x - (d - 1e-6 * spacing) * panels.normal[panel];
+            if (PanelGrid<D>::first_crossing(cell, x, foot).entry >= 0) continue;
+        }
+        unsorted_.push_back({std::uint32_t(j), int(panel), -1, std::uint8_t(copy), 0});
+    }
+}
+
+template <int D>
+void GhostWalls<D>::collect_corners(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell,
+                                    double spacing, double reach) {
+    const double tolerance = 0.5 * spacing;
+    for (std::size_t entry = 0; entry < cell.corner.size(); ++entry) {
+        const Corner<D>& corner = corners[std::size_t(cell.corner[entry])];
+        const int copy = cell.corner_copy[entry];
+        const Vec<D> there = copy == 0 ? x : Vec<D>(x - periodic.shift(copy));
+        Vec<D> from = there - corner.point;
+        if constexpr (D == 3) {
+            if (!corner.is_point()) {
+                const double length = corner.edge.norm(), s = from.dot(corner.edge) / length;
+                if (s < -corner_slack_ || s >= length - corner_slack_) continue;
+                from -= s / length * corner.edge;
+            }
+        }
+        if (from.squaredNorm() >= reach * reach) continue;
+        bool mirrors = true;
+        for (std::size_t k = 0; k < corner.aways && mirrors; ++k) mirrors = from.dot(corner.away[k]) >= 0;
+        for (std::size_t k = 0; k < corner.panels && mirrors; ++k)
+            mirrors = from.dot(panels.normal[std::size_t(corner.panel[k])]) > -tolerance;
+        if (mirrors) unsorted_.push_back({std::uint32_t(j), -1, cell.corner[entry], std::uint8_t(copy), 0});
+    }
+}
+
+template <int D>
+void GhostWalls<D>::collect_images(const Particles<D>& particles, const Ghost& ghost, double reach) {
+    for (int copy = 1; copy < Periodic<D>::copies; ++copy) {
+        if (!periodic.exists(copy)) continue;
+        Ghost image = ghost;
+        image.copy = std::uint8_t(copy);
+        if (periodic.is_near(place(particles, image), copy, reach)) unsorted_.push_back(image);
+    }
+}
+
+template <int D>
+Vec<D> GhostWalls<D>::before_wall(const Particles<D>& particles, const Ghost& ghost) const {
+    const Vec<D> x = at<D>(particles.x, ghost.parent);
+    return ghost.wall_copy == 0 ? x : Vec<D>(x - periodic.shift(ghost.wall_copy));
+}
+
+template <int D>
+Vec<D> GhostWalls<D>::place(const Particles<D>& particles, const Ghost& ghost) const {
+    return mirror(before_wall(particles, ghost), ghost).image + periodic.shift(ghost.wall_copy) +
+           periodic.shift(ghost.copy);
+}
+
+template <int D>
+typename GhostWalls<D>::Mirror GhostWalls<D>::mirror_at_corner(const Vec<D>& x, const Corner<D>& corner) const {
+    Mirror m;
+    m.wall_velocity = corner.velocity;
+    m.S = -Mat<D>::Identity();
+    Vec<D> from = x - corner.point;
+    bool slips_along = false;
+    if constexpr (D == 3) {
+        if (!corner.is_point()) {
+            const Vec3 along = corner.edge.normalized();
+            from -= from.dot(along) * along;
+            m.S += 2 * along * along.transpose();
+            m.wall_velocity += std::clamp(corner.along(x), 0.0, 1.0) * corner.edge_velocity;
+            slips_along = !panels.panels[std::size_t(corner.panel[0])].no_slip &&
+                          !panels.panels[std::size_t(corner.panel[1])].no_slip;
+        }
+        m.image = x - 2 * from;
+    } else {
+        m.image = corner.point - from;
+    }
+    m.T = slips_along ? m.S : Mat<D>(-Mat<D>::Identity());
+    if (!corner.sharp) {  // nearly flat: like a plane across the line to the corner
+        const Vec<D> e = from.normalized();
+        m.T = Mat<D>::Identity() - 2 * e * e.transpose();
+    }
     return m;
 }
 
-void GhostWalls::update_state(Particles<2>& particles, const Vec2& gravity, std::size_t block) const {
+template <int D>
+typename GhostWalls<D>::Mirror GhostWalls<D>::mirror(const Vec<D>& x, const Ghost& ghost) const {
+    if (ghost.corner >= 0) return mirror_at_corner(x, corners[std::size_t(ghost.corner)]);
+    Mirror m;
+    if (ghost.is_image()) {
+        m.image = x;
+        m.wall_velocity = Vec<D>::Zero();
+        m.S = m.T = Mat<D>::Identity();
+        return m;
+    }
+    const auto k = std::size_t(ghost.panel);
+    const Panel<D>& panel = panels.panels[k];
+    const Vec<D>& n = panels.normal[k];
+    const auto shape = panels.shape_functions_on(k, x);
+    m.wall_velocity = shape[0] * panels.velocity[std::size_t(panel.vertex[0])];
+    for (std::size_t v = 1; v < D; ++v) m.wall_velocity += shape[v] * panels.velocity[std::size_t(panel.vertex[v])];
+    m.S = Mat<D>::Identity() - 2 * n * n.transpose();
+    m.T = panel.no_slip ? Mat<D>(-Mat<D>::Identity()) : m.S;
+    m.image = x - 2 * std::max(panels.height(k, x), least_depth_) * n;
+    return m;
+}
+
+template <int D>
+void GhostWalls<D>::update_state(Particles<D>& particles, const Vec<D>& gravity, std::size_t block) const {
     const std::size_t begin = block * ghosts_per_block, end = std::min(ghosts.size(), begin + ghosts_per_block);
     for (std::size_t g = begin; g < end; ++g) {
-        const std::size_t j = ghosts[g].parent, lane = particles.ghost_begin() + g;
-        const Mirror m = mirror(particles, ghosts[g]);
-        const Vec2 x(particles.x[0][j], particles.x[1][j]), v(particles.v[0][j], particles.v[1][j]);
-        const Vec2 v_ghost = m.wall_velocity + m.T * (v - m.wall_velocity);
-        for (int d = 0; d < 2; ++d) {
-            particles.x[std::size_t(d)][lane] = m.image[d];
+        const Ghost& ghost = ghosts[g];
+        const std::size_t j = ghost.parent, lane = particles.ghost_begin() + g;
+        const Vec<D> x = before_wall(particles, ghost), v = at<D>(particles.v, j);
+        const Mirror m = mirror(x, ghost);
+        const Vec<D> image = m.image + periodic.shift(ghost.wall_copy) + periodic.shift(ghost.copy),
+                     v_ghost = ghost.is_image() ? v : Vec<D>(m.wall_velocity + m.T * (v - m.wall_velocity));
+        for (int d = 0; d < D; ++d) {
+            particles.x[std::size_t(d)][lane] = image[d];
             particles.v[std::size_t(d)][lane] = v_ghost[d];
         }
         const double density = particles.mass[j] / particles.volume[j];
@@ -125,41 +287,61 @@ void GhostWalls::update_state(Particles<2>& particles, const Vec2& gravity, std:
     }
 }
 
-void GhostWalls::update_gradients(Particles<2>& particles, const Vec2& gravity, std::size_t block) const {
+template <int D>
+void GhostWalls<D>::update_gradients(Particles<D>& particles, const Vec<D>& gravity, std::size_t block) const {
     const std::size_t begin = block * ghosts_per_block, end = std::min(ghosts.size(), begin + ghosts_per_block);
     for (std::size_t g = begin; g < end; ++g) {
-        const std::size_t j = ghosts[g].parent, lane = particles.ghost_begin() + g;
-        const Mirror m = mirror(particles, ghosts[g]);
-        const Vec2 grad_p(particles.grad_p[0][j], particles.grad_p[1][j]);
-        Eigen::Matrix2d grad_v;
-        grad_v << particles.grad_v[0][0][j], particles.grad_v[0][1][j], particles.grad_v[1][0][j],
-            particles.grad_v[1][1][j];
-        // The hydrostatic part goes on behind the wall, only the rest is mirrored. A particle too bare to have a
-        // gradient leaves its ghost without one.
-        const bool bare = grad_p.squaredNorm() == 0;
-        const Vec2 weight = particles.mass[j] / particles.volume[j] * gravity;
-        const Vec2 ghost_grad_p = bare ? Vec2(Vec2::Zero()) : Vec2(weight + m.S * (grad_p - weight));
-        const Eigen::Matrix2d ghost_grad_v = m.T * grad_v * m.S;
-        for (int d = 0; d < 2; ++d) {
+        const Ghost& ghost = ghosts[g];
+        const std::size_t j = ghost.parent, lane = particles.ghost_begin() + g;
+        const Vec<D> grad_p = at<D>(particles.grad_p, j);
+        Mat<D> grad_v;
+        for (int d = 0; d < D; ++d)
+            for (int e = 0; e < D; ++e) grad_v(d, e) = particles.grad_v[std::size_t(d)][std::size_t(e)][j];
+        Vec<D> ghost_grad_p = grad_p;
+        if (!ghost.is_image()) {
+            const Mirror m = mirror(before_wall(particles, ghost), ghost);
+            // The hydrostatic part goes on behind the wall, only the rest is mirrored. A particle too bare to have a
+            // gradient leaves its ghost without one.
+            const bool bare = grad_p.squaredNorm() == 0;
+            const Vec<D> weight = particles.mass[j] / particles.volume[j] * gravity;
+            ghost_grad_p = bare ? Vec<D>(Vec<D>::Zero()) : Vec<D>(weight + m.S * (grad_p - weight));
+            grad_v = Mat<D>(m.T * grad_v * m.S);
+        }
+        for (int d = 0; d < D; ++d) {
             particles.grad_p[std::size_t(d)][lane] = ghost_grad_p[d];
-            for (int e = 0; e < 2; ++e) particles.grad_v[std::size_t(d)][std::size_t(e)][lane] = ghost_grad_v(d, e);
+            for (int e = 0; e < D; ++e) particles.grad_v[std::size_t(d)][std::size_t(e)][lane] = grad_v(d, e);
         }
     }
 }
 
-std::size_t GhostWalls::hold_back(Particles<2>& particles, double spacing) const {
+// Since the lists were built a particle may have moved on to the next triangle of a smooth surface: the panel that
+// mirrors it goes on there.
+template <int D>
+bool GhostWalls<D>::is_held_by(std::size_t panel, const Vec<D>& x) const {
+    if constexpr (D == 2) {
+        return panels.is_over(panel, x);
+    } else {
+        const auto shape = panels.shape_functions(panel, x);
+        for (std::size_t v = 0; v < D; ++v)
+            if (shape[v] < 0 && !goes_on_[panel][v]) return false;
+        return true;
+    }
+}
+
+template <int D>
+std::size_t GhostWalls<D>::hold_back(Particles<D>& particles, double spacing) const {
     std::size_t held = 0;
     for (const Ghost& ghost : ghosts) {
-        if (ghost.panel < 0) continue;
+        if (ghost.panel < 0 || ghost.copy != 0) continue;
         const auto k = std::size_t(ghost.panel);
         const std::size_t j = ghost.parent;
-        const Vec2 from = Vec2(particles.x[0][j], particles.x[1][j]) - panels.start(k);
-        const double d = from.dot(panels.normal[k]), s = from.dot(panels.tangent[k]);
-        if (d >= 0 || d < -0.5 * spacing || s < 0 || s > panels.measure[k]) continue;
-        const Vec2 v = Vec2(particles.v[0][j], particles.v[1][j]) - mirror(particles, ghost).wall_velocity;
-        const Vec2 back = (1e-3 * spacing - d) * panels.normal[k],
-                   slower = std::max(0.0, -v.dot(panels.normal[k])) * panels.normal[k];
-        for (int c = 0; c < 2; ++c) {
+        const Vec<D> x = before_wall(particles, ghost);
+        const double d = panels.height(k, x);
+        if (d >= 0 || d < -0.5 * spacing || !is_held_by(k, x)) continue;
+        const Vec<D> v = at<D>(particles.v, j) - mirror(x, ghost).wall_velocity;
+        const Vec<D> back = (1e-3 * spacing - d) * panels.normal[k],
+                     slower = std::max(0.0, -v.dot(panels.normal[k])) * panels.normal[k];
+        for (int c = 0; c < D; ++c) {
             particles.x[std::size_t(c)][j] += back[c];
             particles.v[std::size_t(c)][j] += slower[c];
         }
@@ -168,17 +350,20 @@ std::size_t GhostWalls::hold_back(Particles<2>& particles, double spacing) const
     return held;
 }
 
-Escape GhostWalls::deepest(const Particles<2>& particles) const {
+template <int D>
+Escape GhostWalls<D>::deepest(const Particles<D>& particles) const {
     Escape escape;
     for (const Ghost& ghost : ghosts) {
-        if (ghost.panel < 0) continue;
+        if (ghost.panel < 0 || ghost.copy != 0) continue;
         const auto k = std::size_t(ghost.panel);
-        const Vec2 from = Vec2(particles.x[0][ghost.parent], particles.x[1][ghost.parent]) - panels.start(k);
-        const double depth = -from.dot(panels.normal[k]), s = from.dot(panels.tangent[k]);
-        if (s < 0 || s > panels.measure[k]) continue;
-        if (depth > escape.depth) escape = {ghost.parent, depth, ghost.panel};
+        const Vec<D> x = before_wall(particles, ghost);
+        const double depth = -panels.height(k, x);
+        if (depth > escape.depth && is_held_by(k, x)) escape = {ghost.parent, depth, ghost.panel};
     }
     return escape;
 }
+
+template class GhostWalls<2>;
+template class GhostWalls<3>;
 
 }  // namespace aquagraph::fluid

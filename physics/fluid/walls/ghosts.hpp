@@ -1,12 +1,17 @@
-// Ghost particles: fluid mirrored through walls at every substep (thesis 2.5.1.1, (2.77), (2.78)).
+// Ghost particles: fluid mirrored through walls at every substep (thesis 2.5.1.1, (2.77), (2.78)), and the images of
+// fluid in a periodic domain.
 //
 // A particle at x_j in front of panel k (start a, normal n, wall velocity v_w at the foot of the perpendicular) has the
 // ghost
 //     x_G = x_j - 2 ((x_j - a)·n) n,     p_G = p_j + ρ_j g·(x_G - x_j),   ω_G = ω_j,
 //     free slip  v_G = v_j + 2 ((v_w - v_j)·n) n,     no slip  v_G = 2 v_w - v_j,
 // and the mirrored gradients, so that reconstruction works across the wall as it does inside. Corners that the fluid
-// fills to less than 180° also reflect through their point. Which panel mirrors which particle is decided when the
-// neighbour lists are built; positions and states follow parents and panels at every substep.
+// fills to less than 180° also reflect through their point, edges rotate by 180° about their line (walls/corners.hpp).
+// A particle has one ghost per flat facet, however many triangles it is made of. Which panels mirror which particles is
+// decided when the neighbour lists are built; positions and states follow parents and panels at every substep.
+//
+// In a periodic domain particles and ghosts near its edge also appear, shifted by a period, beyond the opposite one.
+// Where two walls of such a domain meet across its edge at an angle, no corner is made: let flat walls end there.
 #pragma once
 #include <array>
 
@@ -20,50 +25,75 @@ struct Escape {
     int panel = -1;
 };
 
+template <int D>
 class GhostWalls {
   public:
-    Panels<2> panels;
+    Panels<D> panels;      // none where walls are of another kind: then ghosts are periodic images alone
+    Periodic<D> periodic;  // set before the first rebuild
     std::vector<Ghost> ghosts;
-    std::vector<Corner> corners;
-    std::vector<int> patch;
-    PanelGrid grid;
-    Visibility visibility;
+    std::vector<Corner<D>> corners;
+    std::vector<int> patch;  // smooth patch of each panel
+    PanelGrid<D> grid;
+    Visibility<D> visibility;
 
     // Decides which panels mirror which particles within `reach`, sorts the ghosts in space, makes room for them in
     // `particles` and places them. Particles up to half a spacing behind a panel still count as in front of it.
-    void rebuild(Particles<2>& particles, double spacing, double reach, const Vec2& gravity);
+    // Throws std::invalid_argument if a period is shorter than the reach.
+    void rebuild(Particles<D>& particles, double spacing, double reach, const Vec<D>& gravity);
 
     // Panel geometry and corners after the vertices have moved.
     void update_geometry();
 
     std::size_t blocks() const { return (ghosts.size() + ghosts_per_block - 1) / ghosts_per_block; }
     // Positions, velocities, pressures, volumes, impedances of the ghosts of one block, from their parents.
-    void update_state(Particles<2>& particles, const Vec2& gravity, std::size_t block) const;
+    void update_state(Particles<D>& particles, const Vec<D>& gravity, std::size_t block) const;
     // Their gradients, from their parents'.
-    void update_gradients(Particles<2>& particles, const Vec2& gravity, std::size_t block) const;
+    void update_gradients(Particles<D>& particles, const Vec<D>& gravity, std::size_t block) const;
     // A particle alone, a drop of one, has nobody to push against: its own ghost comes arbitrarily close and repels it
     // arbitrarily little. Parents that have come to lie behind their panel are put back onto it and lose the velocity
     // towards it, like a sticky impact. Resolved flow never gets there. Returns how many; deeper than half a spacing
     // is left to deepest() and is an error.
-    std::size_t hold_back(Particles<2>& particles, double spacing) const;
+    std::size_t hold_back(Particles<D>& particles, double spacing) const;
     // The deepest parent behind its panel.
-    Escape deepest(const Particles<2>& particles) const;
+    Escape deepest(const Particles<D>& particles) const;
+    // Where a ghost's parent stands before the panel or corner: shifted by a period if the wall's copy mirrors it.
+    Vec<D> before_wall(const Particles<D>& particles, const Ghost& ghost) const;
 
   private:
     static constexpr std::size_t ghosts_per_block = 1024;
     // x_G = origin + S (x_j - origin), v_G = T v_j + (1 - T) v_w
     struct Mirror {
-        Vec2 image, wall_velocity;
-        Eigen::Matrix2d S, T;
+        Vec<D> image, wall_velocity;
+        Mat<D> S, T;
     };
-    Mirror mirror(const Particles<2>& particles, const Ghost& ghost) const;
-    void collect(const Particles<2>& particles, double spacing, double reach);
-    bool sticks_out(const Particles<2>& particles, const Ghost& ghost, const Vec2& image) const;
+    Mirror mirror(const Vec<D>& x, const Ghost& ghost) const;
+    Mirror mirror_at_corner(const Vec<D>& x, const Corner<D>& corner) const;
+    Vec<D> place(const Particles<D>& particles, const Ghost& ghost) const;
+    void collect(const Particles<D>& particles, double spacing, double reach);
+    void collect_panels(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell, double spacing,
+                        double reach);
+    void collect_corners(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell, double spacing,
+                         double reach);
+    void collect_images(const Particles<D>& particles, const Ghost& ghost, double reach);
+    bool owns(std::size_t panel, const Vec<D>& x) const;
+    void find_owners(double spacing, double reach);
+    bool sticks_out(const Particles<D>& particles, const Ghost& ghost, const Vec<D>& image) const;
+    bool is_held_by(std::size_t panel, const Vec<D>& x) const;
 
     double least_depth_ = 0;  // ghosts stay at least this far behind the panel [m]
-    SpatialOrder<2> order_;
-    Vectors<2> image_;
+    double corner_slack_ = 0;
+    SpatialOrder<D> order_;
+    Vectors<D> image_;
     std::vector<Ghost> unsorted_;
+    // In 3D: flat facets, where shape functions must lie for a panel to own a foot, and sides beyond which the smooth
+    // surface goes on.
+    std::vector<int> facet_;
+    std::vector<std::array<double, D>> owned_from_;
+    std::vector<std::array<bool, D>> goes_on_;
+    std::vector<std::pair<int, int>> mirrored_by_;
 };
+
+extern template class GhostWalls<2>;
+extern template class GhostWalls<3>;
 
 }  // namespace aquagraph::fluid

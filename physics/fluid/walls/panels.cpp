@@ -61,6 +61,17 @@ std::array<double, D> Panels<D>::shape_functions_on(std::size_t panel, const Vec
     }
 }
 
+template <int D>
+bool Panels<D>::is_over(std::size_t panel, const Vec<D>& x) const {
+    if constexpr (D == 2) {
+        const double s = (x - start(panel)).dot(tangent[panel]);
+        return s >= 0 && s <= measure[panel];
+    } else {
+        const auto shape = shape_functions(panel, x);
+        return std::min({shape[0], shape[1], shape[2]}) >= -1e-6;  // or a foot could slip between two triangles
+    }
+}
+
 namespace {
 
 // Vertices in the same place get the same number: the smallest of theirs. The same place is closer than a millionth of
@@ -175,9 +186,10 @@ int Panels<D>::add_wall(const std::string& name, const std::vector<Vec<D>>& poin
     return wall;
 }
 
+namespace {
 template <int D>
-std::vector<int> smooth_patches(const Panels<D>& panels) {
-    static const double least_cosine = std::cos(std::numbers::pi / 6);
+std::vector<int> patches(const Panels<D>& panels, double largest_turn) {
+    const double least_cosine = std::cos(largest_turn);
     std::vector<int> patch(panels.size());
     std::iota(patch.begin(), patch.end(), 0);
     const auto root = [&](int k) {
@@ -193,10 +205,23 @@ std::vector<int> smooth_patches(const Panels<D>& panels) {
     for (std::size_t k = 0; k < patch.size(); ++k) patch[k] = root(int(k));
     return patch;
 }
+}  // namespace
+
+template <int D>
+std::vector<int> smooth_patches(const Panels<D>& panels) {
+    return patches(panels, std::numbers::pi / 6);
+}
+
+template <int D>
+std::vector<int> flat_facets(const Panels<D>& panels) {
+    return patches(panels, 1e-3);
+}
 
 template struct Panels<2>;
 template struct Panels<3>;
 template std::vector<int> smooth_patches(const Panels<2>&);
 template std::vector<int> smooth_patches(const Panels<3>&);
+template std::vector<int> flat_facets(const Panels<2>&);
+template std::vector<int> flat_facets(const Panels<3>&);
 
 }  // namespace aquagraph::fluid

@@ -74,6 +74,8 @@ struct Panels {
     std::array<double, D> shape_functions(std::size_t panel, const Vec<D>& x) const;
     // The same at the foot moved onto the panel: none is negative.
     std::array<double, D> shape_functions_on(std::size_t panel, const Vec<D>& x) const;
+    // True if the foot of the perpendicular from x lies on the panel, its border included.
+    bool is_over(std::size_t panel, const Vec<D>& x) const;
 
     // Adds a polyline of panels under a name; closed joins the last point to the first. Returns the wall's index.
     int add_wall(const std::string& name, const std::vector<Vec<D>>& points, bool closed,
@@ -87,6 +89,9 @@ struct Panels {
 // Smooth patches: panels that are joined and turn by less than 30° belong together. patch[k] numbers them.
 template <int D>
 std::vector<int> smooth_patches(const Panels<D>& panels);
+// Flat facets: the same for less than a thousandth of a radian. Two triangles of a rectangle are one facet.
+template <int D>
+std::vector<int> flat_facets(const Panels<D>& panels);
 
 extern template struct Panels<2>;
 extern template struct Panels<3>;
