@@ -31,7 +31,8 @@ template <int D>
 std::vector<tasks::Task> listing_of(const io::Scene& scene) {
     const std::unique_ptr<Model<D>> model = make_model<D>(scene);
     std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
-    for (tasks::Task& task : result_tasks<D>(nullptr)) listing.push_back(std::move(task));
+    for (tasks::Task& task : result_tasks<D>(nullptr, make_diagnostics(scene, *model)))
+        listing.push_back(std::move(task));
     return listing;  // to be looked at, not run: the model is gone
 }
 

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "engine/solid_parts.hpp"
-#include "io/scene_reader.hpp"
 
 namespace aquagraph::engine {
 
@@ -73,13 +72,6 @@ HistoryPart particle_figures(const fluid::Fluid<D>& fluid) {
             }};
 }
 
-void check_comparisons(const io::Scene& scene, const std::vector<HistoryPart>& parts) {
-    std::vector<std::string> names;
-    for (const HistoryPart& part : parts)
-        for (const io::HistoryColumn& column : part.columns) names.push_back(column.name);
-    io::check_compared_columns(scene, names);
-}
-
 }  // namespace
 
 template <int D>
@@ -93,7 +85,6 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
     if (model.fluid) parts.push_back(fluid_energies(*model.fluid));
     if (model.solid) parts.push_back(solid_energies(*model.solid));
     if (model.fluid) parts.push_back(particle_figures(*model.fluid));
-    check_comparisons(scene, parts);
     return parts;
 }
 

@@ -13,7 +13,7 @@ struct HistoryPart {
     std::function<void(std::vector<double>&)> append;  // one value per column, of the model's present state
 };
 
-// The model must outlive the parts. Throws io::SceneError for a comparison with a column that will not be there.
+// The state of the clock, the fluid and the solid. The model must outlive the parts.
 template <int D>
 std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& model);
 

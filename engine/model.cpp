@@ -54,13 +54,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     auto model = std::make_unique<Model<D>>();
     model->clock.end = scene.end_time;
     model->fluid = make_fluid<D>(scene);
-    if (!scene.walls.empty() || scene.solid) {
-        if constexpr (D == 2)
-            add_walls(scene, model->walls.emplace().panels);
-        else
-            throw io::scene_error(scene, "wall[0]", "walls in three dimensions cannot be computed yet",
-                                  "take them out");
-    }
+    if (!scene.walls.empty() || scene.solid) add_walls(scene, model->walls.emplace().panels);
     if constexpr (D == 2) {
         if (scene.solid) {
             model->solid = make_solid(scene);

@@ -1,9 +1,11 @@
 #include "engine/results.hpp"
 
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #include "engine/frames.hpp"
+#include "io/scene_reader.hpp"
 #include "io/summary.hpp"
 #include "tasks/resources.hpp"
 
@@ -11,9 +13,18 @@ namespace aquagraph::engine {
 
 namespace {
 
-std::vector<io::HistoryColumn> columns_of(const std::vector<HistoryPart>& parts) {
+// Throws io::SceneError for a comparison with a column that will not be there.
+std::vector<io::HistoryColumn> columns_of(const io::Scene& scene, const std::vector<HistoryPart>& parts,
+                                          const std::vector<Diagnostic>& diagnostics) {
     std::vector<io::HistoryColumn> columns;
-    for (const HistoryPart& part : parts) columns.insert(columns.end(), part.columns.begin(), part.columns.end());
+    const auto append = [&](const HistoryPart& part) {
+        columns.insert(columns.end(), part.columns.begin(), part.columns.end());
+    };
+    for (const HistoryPart& part : parts) append(part);
+    for (const Diagnostic& diagnostic : diagnostics) append(diagnostic.part);
+    std::vector<std::string> names;
+    for (const io::HistoryColumn& column : columns) names.push_back(column.name);
+    io::check_compared_columns(scene, names);
     return columns;
 }
 
@@ -37,39 +48,68 @@ double next_due(double t, double interval) {
 // The columns are made before anything is computed or written, so that a comparison with one that is not there ends at
 // once.
 template <int D>
-Results<D>::Results(const io::Scene& scene, const Model<D>& model, std::filesystem::path folder)
+Results<D>::Results(const io::Scene& scene, Model<D>& model, std::filesystem::path folder)
     : scene_(scene),
       model_(model),
       parts_(history_parts(scene, model)),
+      diagnostics_(make_diagnostics(scene, model)),
+      measured_at_(diagnostics_.size(), -1),
+      columns_(columns_of(scene, parts_, diagnostics_)),
       folder_(std::move(folder)),
       fluid_series_((std::filesystem::create_directories(folder_), folder_ / "fluid.hdf.series")),
       solid_series_(folder_ / "solid.hdf.series"),
       flow_(scene.fluid ? scene.fluid->spacing : 1.0) {
     remove_old_frames(folder_);
-    history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", columns_of(parts_));
+    history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", columns_);
     if (model.solid) boundary_ = solid::chain(solid::boundary_edges(model.solid->mesh()));
 }
 
 template <int D>
-std::vector<tasks::Task> result_tasks(Results<D>* results) {
+std::vector<tasks::Task> result_tasks(Results<D>* results, const std::vector<Diagnostic>& diagnostics) {
     namespace resource = tasks::resource;
     const std::vector<std::string> reads = {resource::clock, resource::fluid, resource::interface_loads,
                                             resource::solid_state};
-    return {{.name = "history",
-             .reads = reads,
-             .writes = {resource::results},
-             .body = [results] { results->history_if_due(); },
-             .group = "results"},
-            {.name = "frames",
-             .reads = reads,
-             .writes = {resource::results},
-             .body = [results] { results->frame_if_due(); },
-             .group = "results"}};
+    std::vector<tasks::Task> tasks;
+    for (std::size_t k = 0; k < diagnostics.size(); ++k) {
+        tasks::Task& task = tasks.emplace_back(diagnostics[k].task);
+        task.reads.push_back(resource::clock);  // whether a row is due
+        task.writes.push_back(resource::results);
+        task.group = "results";
+        task.body = [results, k, measure = diagnostics[k].task.body] {
+            if (!results->row_is_due()) return;
+            measure();
+            results->measured(k);
+        };
+    }
+    tasks.push_back({.name = "history",
+                     .reads = reads,
+                     .writes = {resource::results},
+                     .body = [results] { results->history_if_due(); },
+                     .group = "results"});
+    tasks.push_back({.name = "frames",
+                     .reads = reads,
+                     .writes = {resource::results},
+                     .body = [results] { results->frame_if_due(); },
+                     .group = "results"});
+    return tasks;
+}
+
+template <int D>
+bool Results<D>::row_is_due() const {
+    return model_.clock.time >= next_row_ || model_.clock.time >= model_.clock.end;
+}
+
+template <int D>
+void Results<D>::measure() {
+    for (std::size_t k = 0; k < diagnostics_.size(); ++k) {
+        diagnostics_[k].task.body();
+        measured(k);
+    }
 }
 
 template <int D>
 void Results<D>::history_if_due() {
-    if (model_.clock.time < next_row_ && model_.clock.time < model_.clock.end) return;
+    if (!row_is_due()) return;
     write_history_row();
     if (scene_.output.history_interval > 0) next_row_ = next_due(model_.clock.time, scene_.output.history_interval);
 }
@@ -87,6 +127,12 @@ void Results<D>::write_history_row() {
     row_time_ = model_.clock.time;
     row_.clear();
     for (const HistoryPart& part : parts_) part.append(row_);
+    for (std::size_t k = 0; k < diagnostics_.size(); ++k) {
+        if (measured_at_[k] == model_.clock.time)
+            diagnostics_[k].part.append(row_);
+        else
+            row_.resize(row_.size() + diagnostics_[k].part.columns.size(), std::numeric_limits<double>::quiet_NaN());
+    }
     history_->row(row_);
 }
 
@@ -164,7 +210,7 @@ std::vector<io::Comparison> Results<D>::finish(const RunEnd& end) {
 
 template class Results<2>;
 template class Results<3>;
-template std::vector<tasks::Task> result_tasks(Results<2>*);
-template std::vector<tasks::Task> result_tasks(Results<3>*);
+template std::vector<tasks::Task> result_tasks(Results<2>*, const std::vector<Diagnostic>&);
+template std::vector<tasks::Task> result_tasks(Results<3>*, const std::vector<Diagnostic>&);
 
 }  // namespace aquagraph::engine

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/history_parts.hpp"
+#include "engine/diagnostics.hpp"
 #include "engine/model.hpp"
 #include "engine/summary.hpp"
 #include "io/comparison.hpp"
@@ -21,10 +21,16 @@ class Results {
   public:
     // Makes the folder. Throws io::SceneError for a comparison with a column that will not be there, std::system_error
     // where the folder cannot be written.
-    Results(const io::Scene& scene, const Model<D>& model, std::filesystem::path folder);
+    Results(const io::Scene& scene, Model<D>& model, std::filesystem::path folder);
 
+    const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+    bool row_is_due() const;
+    // All diagnostics, as their tasks do where a row is due: for the first and the last row, outside of the graph.
+    void measure();
+    void measured(std::size_t diagnostic) { measured_at_[diagnostic] = model_.clock.time; }
     void history_if_due();
     void frame_if_due();
+    // What has not been measured now (after a failure nothing can be) is written as nan.
     void write_history_row();
     void write_frame();
     // Summary and report; returns the comparisons.
@@ -38,6 +44,9 @@ class Results {
     const io::Scene& scene_;
     const Model<D>& model_;
     std::vector<HistoryPart> parts_;
+    std::vector<Diagnostic> diagnostics_;
+    std::vector<double> measured_at_;  // [s], of each
+    std::vector<io::HistoryColumn> columns_;
     std::filesystem::path folder_;
     std::unique_ptr<io::HistoryWriter> history_;
     std::vector<double> row_;
@@ -49,9 +58,9 @@ class Results {
     int frames_ = 0;
 };
 
-// Tasks for the end of a cycle: a history row and a frame where they are due. `results` may be null where the listing
-// is only drawn.
+// Tasks for the end of a cycle: diagnostics, a history row and a frame where they are due. `results` may be null where
+// the listing is only drawn.
 template <int D>
-std::vector<tasks::Task> result_tasks(Results<D>* results);
+std::vector<tasks::Task> result_tasks(Results<D>* results, const std::vector<Diagnostic>& diagnostics);
 
 }  // namespace aquagraph::engine

@@ -53,7 +53,7 @@ std::string pass_name(const std::string& task) {
 std::string family_of(const std::string& pass) {
     if (pass == "FE Newton solve") return "solid";
     if (pass == "exchange" || pass == "interface loads" || pass == "wall motion") return "coupling";
-    if (pass == "history" || pass == "frames") return "output";
+    if (pass == "history" || pass == "frames" || pass == "probes") return "output";
     return "fluid";
 }
 
@@ -111,7 +111,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
     const std::unique_ptr<Model<D>> model = make_model<D>(scene);
     Results<D> results(scene, *model, folder);
     std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
-    for (tasks::Task& task : result_tasks(&results)) listing.push_back(std::move(task));
+    for (tasks::Task& task : result_tasks(&results, results.diagnostics())) listing.push_back(std::move(task));
     tasks::TaskGraph graph(std::move(listing), executor, trace ? &*trace : nullptr);
 
     const InterruptGuard guard;
@@ -126,13 +126,17 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
         progress.emplace(out, &out == &std::cout && io::Progress::is_terminal(STDOUT_FILENO), scene.end_time);
     Clock& clock = model->clock;
     try {
-        executor.execute([&] { start(*model, scene); });
+        executor.execute([&] {
+            start(*model, scene);
+            results.measure();
+        });
         results.history_if_due();
         results.frame_if_due();
         while (clock.time < clock.end * (1 - 1e-12)) {
             if (interrupt_requested) {
                 outcome = io::RunOutcome::interrupted;
                 message = fmt::format("interrupted at t = {:.6g} s of {:.6g} s", clock.time, clock.end);
+                executor.execute([&] { results.measure(); });
                 break;
             }
             graph.run();

@@ -79,6 +79,18 @@ struct SolidScene {
     std::vector<Track> tracks;
 };
 
+enum class ProbeQuantity { pressure, velocity, level };
+enum class ProbeInterpolation { shepard, linear };
+
+// A place whose values go into history.csv: NAME_pressure, NAME_velocity_x …, NAME_level.
+struct ProbeScene {
+    std::string name;
+    ProbeQuantity quantity = ProbeQuantity::pressure;
+    Point point{};     // of a level: the lower end of the line along which the surface is looked for
+    std::string wall;  // on whose nearest panel the probe sits and with which it moves; empty: it stands still
+    ProbeInterpolation interpolation = ProbeInterpolation::shepard;
+};
+
 enum class CouplingAlgorithm { cps, css };
 
 struct CouplingScene {
@@ -115,6 +127,7 @@ struct Scene {
     std::optional<FluidScene> fluid;
     std::vector<WallScene> walls;
     std::optional<SolidScene> solid;
+    std::vector<ProbeScene> probes;
     CouplingScene coupling;
     OutputScene output;
     std::vector<Compare> comparisons;

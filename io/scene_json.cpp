@@ -57,6 +57,24 @@ Json to_json(const SolidScene& solid) {
     return json;
 }
 
+Json to_json(const ProbeScene& probe) {
+    Json json = {{"name", probe.name}, {"point", probe.point}};
+    switch (probe.quantity) {
+        case ProbeQuantity::pressure:
+            json["quantity"] = "pressure";
+            break;
+        case ProbeQuantity::velocity:
+            json["quantity"] = "velocity";
+            break;
+        case ProbeQuantity::level:
+            json["quantity"] = "level";
+            return json;
+    }
+    json["interpolation"] = probe.interpolation == ProbeInterpolation::linear ? "linear" : "shepard";
+    if (!probe.wall.empty()) json["wall"] = probe.wall;
+    return json;
+}
+
 Json to_json(const Compare& compare) {
     return {{"column", compare.column},
             {"file", compare.file.filename().string()},
@@ -87,6 +105,7 @@ nlohmann::json to_json(const Scene& scene) {
                                 {"closed", wall.closed},
                                 {"slip", wall.slip == Slip::free ? "free" : "none"}});
     if (scene.solid) json["solid"] = to_json(*scene.solid);
+    for (const ProbeScene& probe : scene.probes) json["probe"].push_back(to_json(probe));
     if (scene.fluid && scene.solid)
         json["coupling"] = {{"algorithm", scene.coupling.algorithm == CouplingAlgorithm::cps ? "cps" : "css"},
                             {"ratio", scene.coupling.ratio},

@@ -25,6 +25,11 @@ constexpr auto sections = std::to_array<SceneSection>({
     {"wall", true, false,
      "Rigid walls. In 2D polylines with the fluid on the left of the direction of travel, so a closed tank is walked "
      "counter-clockwise. In 3D flat convex faces, their corners counter-clockwise as seen from the fluid."},
+    {"probe", true, false,
+     "Places whose values go into history.csv: `NAME_pressure`, `NAME_velocity_x` and so on, or `NAME_level`. Pressure "
+     "and velocity are interpolated between the particles around; in the air they are 0. A level is the height of the "
+     "free surface on the line upwards from the point: the highest place where the particles fill half of what they "
+     "fill in the water below it."},
     {"solid", false, false, "The elastic body: finite elements. Without it the scene is a fluid alone."},
     {"solid.box", false, false, "A rectangle of eight-node quadrilaterals, with the sets left, right, bottom and top."},
     {"solid.material", false, false, "What the body is made of. Needed with [solid]."},
@@ -79,6 +84,16 @@ constexpr auto keys = std::to_array<SceneKey>({
      "no two in a row the same; in 2D two or more, in 3D three or more"},
     {"wall", "closed", K::boolean, false, "", any, "", "false", "joins the last point to the first; 2D only"},
     {"wall", "slip", K::choice, false, "", any, "free none", "free", "along the wall: free slip or no slip"},
+
+    {"probe", "name", K::text, true, "", any, "", "", "letters, digits and _, beginning with a letter; each once"},
+    {"probe", "quantity", K::choice, true, "", any, "pressure velocity level", "", "what is measured"},
+    {"probe", "point", K::point, true, "m", any, "", "", "where; of a level, the lower end of its line"},
+    {"probe", "wall", K::text, false, "", any, "", "none",
+     "name of a wall or of the solid: the probe sits on its nearest place, moves with it and sees its wetted side "
+     "only"},
+    {"probe", "interpolation", K::choice, false, "", any, "shepard linear", "shepard",
+     "of pressure and velocity: a weighted mean, or a fitted line, which does not shift what is measured on a wall "
+     "into the water but is more restless"},
 
     {"solid", "name", K::text, false, "", any, "", "solid", "letters, digits and _, beginning with a letter"},
     {"solid", "mesh", K::text, false, "", any, "", "none",

@@ -33,6 +33,7 @@ class Filler {
         if (document_.count("fluid")) fluid(scene_.fluid.emplace());
         walls();
         if (document_.count("solid")) solid(scene_.solid.emplace());
+        probes();
         choose("coupling.algorithm", scene_.coupling.algorithm,
                {{"cps", CouplingAlgorithm::cps}, {"css", CouplingAlgorithm::css}});
         document_.take("coupling.ratio", scene_.coupling.ratio);
@@ -112,6 +113,22 @@ class Filler {
             Track& track = solid.tracks.emplace_back();
             document_.take(fmt::format("solid.track[{}].name", i), track.name);
             document_.take(fmt::format("solid.track[{}].point", i), track.point);
+        }
+    }
+
+    void probes() {
+        for (int i = 0; i < document_.count("probe"); ++i) {
+            ProbeScene& probe = scene_.probes.emplace_back();
+            const std::string at = fmt::format("probe[{}].", i);
+            document_.take(at + "name", probe.name);
+            choose(at + "quantity", probe.quantity,
+                   {{"pressure", ProbeQuantity::pressure},
+                    {"velocity", ProbeQuantity::velocity},
+                    {"level", ProbeQuantity::level}});
+            document_.take(at + "point", probe.point);
+            document_.take(at + "wall", probe.wall);
+            choose(at + "interpolation", probe.interpolation,
+                   {{"shepard", ProbeInterpolation::shepard}, {"linear", ProbeInterpolation::linear}});
         }
     }
 

@@ -140,6 +140,8 @@ class Validation {
         std::set<std::string> bodies, tracks;
         for (std::size_t i = 0; i < scene_.walls.size(); ++i)
             name(element("wall", i, "name"), scene_.walls[i].name, bodies);
+        for (std::size_t i = 0; i < scene_.probes.size(); ++i)
+            name(element("probe", i, "name"), scene_.probes[i].name, tracks);
         if (!scene_.solid) return;
         // "solid" is reserved for the solid, which is what it is called by default.
         if (scene_.solid->name != "solid") name("solid.name", scene_.solid->name, bodies);
@@ -173,6 +175,31 @@ class Validation {
         if (solid.static_start && solid.clamps.empty() && !complaints_.touch("solid.clamp"))
             complaints_.add("solid.static_start", "a body without any [[solid.clamp]] has no equilibrium to start from",
                             "clamp it or take `static_start` out");
+    }
+
+    void probes() {
+        std::vector<std::string> walls;
+        for (const WallScene& wall : scene_.walls) walls.push_back(wall.name);
+        if (scene_.solid) walls.push_back(scene_.solid->name);
+        for (std::size_t i = 0; i < scene_.probes.size(); ++i) {
+            const ProbeScene& probe = scene_.probes[i];
+            const std::string at = element("probe", i);
+            if (!scene_.fluid && !complaints_.touch("fluid"))
+                complaints_.add(at, "a probe needs water to measure in", "add [fluid] or take the probe out");
+            if (probe.quantity == ProbeQuantity::level)
+                for (const char* key : {"wall", "interpolation"})
+                    if (complaints_.positions.contains(at + "." + key))
+                        complaints_.add(at + "." + key, fmt::format("a level has no `{}`", key),
+                                        "it is looked for along a line that stands still: take the key out");
+            if (probe.wall.empty() || complaints_.touch(at + ".wall") || complaints_.touch("wall") ||
+                std::find(walls.begin(), walls.end(), probe.wall) != walls.end())
+                continue;
+            const auto guess = nearest(probe.wall, walls);
+            complaints_.add(at + ".wall", fmt::format("there is no wall \"{}\"", probe.wall),
+                            guess           ? fmt::format("did you mean \"{}\"?", *guess)
+                            : walls.empty() ? "the scene has no walls: take the key out"
+                                            : fmt::format("there are {}", fmt::join(walls, ", ")));
+        }
     }
 
     void comparisons() {
@@ -294,6 +321,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.fluid_boxes();
     validation.walls();
     validation.names();
+    validation.probes();
     validation.comparisons();
 }
 
