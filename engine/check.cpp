@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "engine/listings.hpp"
+#include "io/scheme_text.hpp"
 #include "physics/fluid/gradients.hpp"
 #include "physics/fluid/rebuild.hpp"
 #include "physics/fluid/time_step.hpp"
@@ -36,11 +37,10 @@ double time_evaluation(fluid::Fluid<D>& fluid, tasks::Executor& executor) {
         const auto begin = std::chrono::steady_clock::now();
         executor.execute([&] {
             tasks::for_each_block(fluid.blocks(), [&](std::size_t block) {
-                compute_gradients(fluid.particles, fluid.lists, fluid.kernel, fluid.lanes(block));
+                compute_gradients(fluid.particles, fluid.lists, fluid.kernel, fluid.lanes(block), fluid.gradients());
             });
             tasks::for_each_block(fluid.blocks(), [&](std::size_t block) {
-                compute_fluxes(fluid.particles, fluid.lists, fluid.kernel, fluid.flux, fluid.tait.reference_density,
-                               fluid.lanes(block));
+                compute_fluxes(fluid.particles, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.lanes(block));
             });
         });
         time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -59,17 +59,16 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
         executor.execute([&] { rebuild_lists(fluid, model->walls ? &*model->walls : nullptr, tasks::parallel_loop); });
         fluid::StepLimits limits;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
-            limits =
-                combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block)));
+            limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
+                                                 fluid.kinematic_viscosity()));
         const bool cps = model->interface && scene.coupling.algorithm == io::CouplingAlgorithm::cps;
         const double step = (cps ? scene.coupling.step_fraction : 1) * limits.step();
         const double steps = std::ceil(scene.end_time / step);
         const double n = double(std::max<std::size_t>(1, fluid.particles.count));
         const double evaluation = time_evaluation(fluid, executor);
-        out << fmt::format(
-            "fluid      Riemann-SPH ({}), Wendland C2, RK4; {} particles of {:.4g} m, R/Δx {:g}, {:.0f} neighbours\n",
-            fluid.flux.muscl ? "MUSCL, minmod" : "first order", fluid.particles.count, fluid.spacing,
-            scene.fluid->support_ratio, double(fluid.lists.pairs()) / n);
+        out << fmt::format("fluid      {}; {} particles of {:.4g} m, R/Δx {:g}, {:.0f} neighbours\n",
+                           io::scheme_text(*scene.fluid), fluid.particles.count, fluid.spacing,
+                           scene.fluid->support_ratio, double(fluid.lists.pairs()) / n);
         if (model->walls)
             out << fmt::format("walls      ghost particles: {} panels, {} ghosts\n", model->walls->panels.panels.size(),
                                model->walls->ghosts.size());
@@ -88,7 +87,7 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
         out << fmt::format("memory     {:.1f} MB, {:.0f} bytes per particle\n", bytes_per_particle(fluid) * n / 1e6,
                            bytes_per_particle(fluid));
         out << fmt::format("run time   about {} on {} threads of this machine\n",
-                           duration(steps * fluid::stages * evaluation / pass_share), executor.threads());
+                           duration(steps * fluid.integration.stages() * evaluation / pass_share), executor.threads());
     }
 }
 

@@ -3,10 +3,12 @@
 //   time step                                  CPS fixes Δt for the whole cycle (6.4), CSS chooses it anew each step
 //   p times
 //     neighbour search                         lists, order of particles, which particle is mirrored where
-//     4 times
+//     prediction                               Verlet only: its one evaluation comes at the end of the step
+//     for each stage of the integration (RK4: 4 times)
 //       wall motion -> ghosts                  boundary data are refreshed at every substep, lists are not
 //       gradients -> ghost gradients           a ghost's gradient is its parent's, mirrored: hence after it
-//       fluxes -> Runge–Kutta stage
+//       free surface -> shifting, or X-SPH     where asked for, in the first stage
+//       fluxes -> viscosity -> energy ledger -> integration stage
 //     wall contact, clock, examine
 //   wall motion, ghosts, gradients, loads      the load at the end of the cycle, from the state reached there
 //   FE Newton solve                            CPS reads the loads of the last exchange: nothing above holds it up, and
@@ -42,22 +44,51 @@ class Listing {
     void fluid_step(const std::string& label) {
         fluid::Fluid<D>& fluid = *model_.fluid;
         group(label + ", lists");
-        coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
-        fluid::GhostWalls<D>* walls = model_.walls ? &*model_.walls : nullptr;
-        add(tasks::neighbour_search(fluid, walls, interface, model_.clock, label));
-        for (int stage = 0; stage < fluid::stages; ++stage) {
+        lists(label);
+        if (fluid.integration.predicts()) {
+            group(label + ", prediction");
+            add(tasks::prediction(fluid, model_.clock));
+        }
+        for (int stage = 0; stage < fluid.integration.stages(); ++stage) {
             const std::string name = "stage " + std::to_string(stage + 1);
             group(label + ", " + name);
-            boundary(fluid::stage_time[stage], name);
-            add(tasks::gradients(fluid, name));
-            if (walls) add(tasks::ghost_gradients(fluid, *walls, name));
-            add(tasks::fluxes(fluid, name));
-            add(tasks::runge_kutta_stage(fluid, model_.clock, stage));
+            evaluation(fluid.integration.stage_time(stage), name, stage == 0);
+            if (fluid.ledger.kept) add(tasks::energy_ledger(fluid, model_.clock, stage, name));
+            add(tasks::integration_stage(fluid, model_.clock, stage));
         }
         group(label + ", end");
-        if (walls) add(tasks::wall_contact(fluid, *walls, label));
+        if (model_.walls) add(tasks::wall_contact(fluid, *model_.walls, label));
         add(tasks::advance_clock(model_.clock, label));
         add(tasks::examine(fluid, label));
+    }
+
+    void lists(const std::string& label) {
+        coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
+        fluid::GhostWalls<D>* walls = model_.walls ? &*model_.walls : nullptr;
+        add(tasks::neighbour_search(*model_.fluid, walls, interface, model_.clock, label));
+    }
+
+    // The rates of the present state, with walls as they are at `fraction` of the present step.
+    void evaluation(double fraction, const std::string& name, bool first) {
+        auto& fluid = *model_.fluid;
+        boundary(fraction, name);
+        add(tasks::gradients(fluid, name));
+        if (model_.walls) add(tasks::ghost_gradients(fluid, *model_.walls, name));
+        if (first) transport(name);
+        add(tasks::fluxes(fluid, name));
+        if (fluid.viscosity.dynamic > 0) add(tasks::viscosity(fluid, name));
+    }
+
+    void transport(const std::string& name) {
+        auto& fluid = *model_.fluid;
+        if (fluid.transport == fluid::Transport::none) return;
+        if (fluid.transport == fluid::Transport::x_sph) {
+            add(tasks::x_sph(fluid, name));
+        } else {
+            add(tasks::free_surface(fluid, name));
+            add(tasks::shifting(fluid, name));
+        }
+        if (model_.walls && model_.walls->periodic.any()) add(tasks::ghost_shift(fluid, *model_.walls, name));
     }
 
     // Walls and ghosts at `fraction` of the present step.
@@ -114,6 +145,17 @@ std::vector<Task> coupling_cycle(Model<D>& model, const io::CouplingScene& coupl
     return listing.take();
 }
 
+template <int D>
+std::vector<Task> first_evaluation(Model<D>& model) {
+    if (!model.fluid || !model.fluid->integration.predicts()) return {};
+    Listing<D> listing(model);
+    listing.lists("start");
+    listing.evaluation(0, "start", true);
+    return listing.take();
+}
+
+template std::vector<Task> first_evaluation(Model<2>&);
+template std::vector<Task> first_evaluation(Model<3>&);
 template std::vector<Task> coupling_cycle(Model<2>&, const io::CouplingScene&);
 template std::vector<Task> coupling_cycle(Model<3>&, const io::CouplingScene&);
 

@@ -12,4 +12,9 @@ namespace aquagraph::engine {
 template <int D>
 std::vector<tasks::Task> coupling_cycle(Model<D>& model, const io::CouplingScene& coupling);
 
+// What an integration that keeps the rates of the step before (Verlet) needs before the first one: lists, then the
+// rates of the initial state. Empty for the others.
+template <int D>
+std::vector<tasks::Task> first_evaluation(Model<D>& model);
+
 }  // namespace aquagraph::engine

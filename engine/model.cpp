@@ -17,19 +17,30 @@ fluid::Fluid<D> make_fluid(const io::Scene& scene) {
     fluid::Fluid<D> made{
         .spacing = from.spacing,
         .tait = {from.density, from.sound_speed, from.polytropic_exponent},
-        .kernel = fluid::WendlandC2<D>(from.support_ratio * from.spacing),
-        .flux = {from.reconstruction == io::Reconstruction::muscl,
-                 {scene.gravity[0], scene.gravity[1], scene.gravity[2]}},
+        .kernel = fluid::Kernel<D>(from.kernel, from.support_ratio * from.spacing),
+        .flux = {.muscl = from.scheme.reconstruction == io::Reconstruction::muscl,
+                 .scheme = from.scheme.name,
+                 .solver = from.scheme.riemann_solver,
+                 .delta = from.scheme.delta,
+                 .alpha = from.scheme.alpha,
+                 .gravity = {scene.gravity[0], scene.gravity[1], scene.gravity[2]}},
         .cfl = from.cfl,
         .domain = {scene.domain.min.as<D>(), scene.domain.max.as<D>()},
         .closed = scene.edge == io::DomainEdge::closed,
+        .viscosity = {from.viscosity, from.viscous_operator},
+        .transport = from.transport,
+        .x_sph = from.x_sph,
         .particles = {},
         .lists = {},
-        .runge_kutta = {},
+        .integration = {},
         .search = {},
         .order = {},
         .reorder = {},
+        .surface = {},
+        .ledger = {},
     };
+    made.integration.scheme = from.integration;
+    made.prepare_particles();
     made.lists.radius = made.kernel.radius();
     made.lists.skin = fluid::skin_ratio * made.kernel.radius();
     std::vector<fluid::FillBox<D>> boxes;
@@ -78,10 +89,7 @@ template <int D>
 double bytes_per_particle(const fluid::Fluid<D>& fluid) {
     const auto& s = fluid.particles;
     if (s.count == 0) return 0;
-    // Numbers per lane.
-    constexpr double carried = 5 + 2 * D, read_in_pairs = 3 + 3 * D + D * D, runge_kutta = 2 + 4 * D;
-    const double fluid_lanes = double(s.clusters() * fluid::W), ghost_lanes = double(s.ghost_clusters * fluid::W);
-    double bytes = 8 * ((carried + read_in_pairs + runge_kutta) * fluid_lanes + read_in_pairs * ghost_lanes);
+    double bytes = double(s.bytes() + fluid.integration.bytes());
     for (const auto& block : fluid.lists.blocks)
         bytes += 4 * double(block.open.capacity() + block.masked.capacity()) + double(block.mask.capacity()) +
                  8 * double(block.particle.capacity());

@@ -128,6 +128,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
     try {
         executor.execute([&] {
             start(*model, scene);
+            for (const tasks::Task& task : first_evaluation(*model)) task.body();
             results.measure();
         });
         results.history_if_due();

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "io/report_parts.hpp"
+#include "io/scheme_text.hpp"
 
 namespace aquagraph::io {
 namespace {
@@ -34,7 +35,7 @@ std::string fluid_table(const FluidScene& fluid) {
         {"sound speed c0", fmt::format("{:g} m/s", fluid.sound_speed)},
         {"polytropic exponent γ", fmt::format("{:g}", fluid.polytropic_exponent)},
         {"CFL", fmt::format("{:g}", fluid.cfl)},
-        {"reconstruction", fluid.reconstruction == Reconstruction::muscl ? "MUSCL" : "none"},
+        {"scheme", scheme_text(fluid)},
         {"pressure at t = 0", fluid.initial_pressure == InitialPressure::hydrostatic ? "hydrostatic" : "zero"}};
     for (const Box& b : fluid.boxes) rows.emplace_back("water", box(b));
     return table("Fluid (SPH)", rows);

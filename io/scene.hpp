@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "physics/fluid/choices.hpp"
+
 #include "io/point.hpp"
 
 namespace aquagraph::io {
@@ -25,14 +27,29 @@ enum class Slip { free, none };
 enum class DomainEdge { closed, open };
 enum class InitialPressure { hydrostatic, zero };
 
+// How pairs of particles act on each other; [fluid.scheme].
+struct FluidScheme {
+    fluid::Scheme name = fluid::Scheme::riemann;
+    Reconstruction reconstruction = Reconstruction::muscl;
+    fluid::RiemannSolver riemann_solver = fluid::RiemannSolver::acoustic;
+    double delta = 0.1;   // δ of δ-SPH
+    double alpha = 0.01;  // α of δ-SPH and artificial viscosity
+};
+
 struct FluidScene {
     double spacing = 0;              // Δx [m]
     double density = 1000;           // ρ0 [kg/m³]
     double sound_speed = 0;          // c0 [m/s]
     double polytropic_exponent = 7;  // γ of the Tait equation
     double support_ratio = 4;        // R/Δx
-    double cfl = 0.375;              // K of Δt = K R/c
-    Reconstruction reconstruction = Reconstruction::muscl;
+    fluid::KernelName kernel = fluid::KernelName::wendland_c2;
+    fluid::IntegrationScheme integration = fluid::IntegrationScheme::rk4;
+    double cfl = 0.375;  // K of Δt = K R/c; the default depends on the integration
+    FluidScheme scheme;
+    double viscosity = 0;  // µ [Pa s]; 0: none
+    fluid::ViscousOperator viscous_operator = fluid::ViscousOperator::monaghan_gingold;
+    fluid::Transport transport = fluid::Transport::none;
+    double x_sph = 0.5;  // ε
     InitialPressure initial_pressure = InitialPressure::hydrostatic;
     std::optional<double> surface_level;  // height at which p = 0 [m]; default: the highest top of the boxes
     std::vector<Box> boxes;               // filled with particles at the centres of Δx cells

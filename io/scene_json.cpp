@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/scene_words.hpp"
+
 namespace aquagraph::io {
 
 namespace {
@@ -20,8 +22,25 @@ Json to_json(const FluidScene& fluid, int dimension) {
                  {"polytropic_exponent", fluid.polytropic_exponent},
                  {"support_ratio", fluid.support_ratio},
                  {"cfl", fluid.cfl},
-                 {"reconstruction", fluid.reconstruction == Reconstruction::muscl ? "muscl" : "none"},
+                 {"kernel", word(kernel_words, fluid.kernel)},
+                 {"integration", word(integration_words, fluid.integration)},
                  {"initial_pressure", fluid.initial_pressure == InitialPressure::hydrostatic ? "hydrostatic" : "zero"}};
+    const FluidScheme& scheme = fluid.scheme;
+    json["scheme"] = {{"name", word(scheme_words, scheme.name)}};
+    if (scheme.name == fluid::Scheme::riemann || scheme.name == fluid::Scheme::riemann_ale) {
+        json["scheme"]["reconstruction"] = scheme.reconstruction == Reconstruction::muscl ? "muscl" : "none";
+        json["scheme"]["riemann_solver"] = word(riemann_solver_words, scheme.riemann_solver);
+    } else {
+        if (scheme.name == fluid::Scheme::delta_sph) json["scheme"]["delta"] = scheme.delta;
+        json["scheme"]["alpha"] = scheme.alpha;
+    }
+    if (fluid.viscosity > 0)
+        json["viscosity"] = {{"dynamic", fluid.viscosity},
+                             {"operator", word(viscous_operator_words, fluid.viscous_operator)}};
+    if (fluid.transport != fluid::Transport::none) {
+        json["transport"] = {{"name", word(transport_words, fluid.transport)}};
+        if (fluid.transport == fluid::Transport::x_sph) json["transport"]["epsilon"] = fluid.x_sph;
+    }
     double top = 0;
     for (std::size_t k = 0; k < fluid.boxes.size(); ++k) {
         json["box"].push_back(to_json(fluid.boxes[k]));

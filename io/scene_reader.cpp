@@ -9,11 +9,24 @@
 #include "io/atomic_file.hpp"
 #include "io/scene_dimension.hpp"
 #include "io/scene_validation.hpp"
+#include "io/scene_words.hpp"
 #include "io/suggestion.hpp"
 #include "io/toml_document.hpp"
 
 namespace aquagraph::io {
 namespace {
+
+// K of Δt = K R/c that is stable with room to spare: benchmarks/RESULTS.md has the measurements.
+double standard_cfl(fluid::IntegrationScheme scheme) {
+    switch (scheme) {
+        case fluid::IntegrationScheme::rk3:
+            return 0.25;
+        case fluid::IntegrationScheme::verlet:
+            return 0.1;
+        default:
+            return 0.375;
+    }
+}
 
 // Moves what the document says into the scene; what is not given keeps the default that scene.hpp states.
 class Filler {
@@ -53,6 +66,14 @@ class Filler {
             if (name == word) target = value;
     }
 
+    template <class E, std::size_t n>
+    void choose(const std::string& key, E& target, const Words<E, n>& meanings) {
+        std::string word;
+        if (!document_.take(key, word)) return;
+        for (const auto& [name, value] : meanings)
+            if (name == word) target = value;
+    }
+
     std::filesystem::path beside_the_scene(const std::string& path) const {
         return (scene_.file.parent_path() / path).lexically_normal();
     }
@@ -63,9 +84,21 @@ class Filler {
         document_.take("fluid.sound_speed", fluid.sound_speed);
         document_.take("fluid.polytropic_exponent", fluid.polytropic_exponent);
         document_.take("fluid.support_ratio", fluid.support_ratio);
+        choose("fluid.kernel", fluid.kernel, kernel_words);
+        choose("fluid.integration", fluid.integration, integration_words);
+        fluid.cfl = standard_cfl(fluid.integration);
         document_.take("fluid.cfl", fluid.cfl);
-        choose("fluid.reconstruction", fluid.reconstruction,
+        choose("fluid.scheme.name", fluid.scheme.name, scheme_words);
+        choose("fluid.scheme.reconstruction", fluid.scheme.reconstruction,
                {{"muscl", Reconstruction::muscl}, {"none", Reconstruction::none}});
+        choose("fluid.scheme.riemann_solver", fluid.scheme.riemann_solver, riemann_solver_words);
+        document_.take("fluid.scheme.delta", fluid.scheme.delta);
+        fluid.scheme.alpha = fluid.scheme.name == fluid::Scheme::artificial_viscosity ? 0.05 : 0.01;
+        document_.take("fluid.scheme.alpha", fluid.scheme.alpha);
+        document_.take("fluid.viscosity.dynamic", fluid.viscosity);
+        choose("fluid.viscosity.operator", fluid.viscous_operator, viscous_operator_words);
+        choose("fluid.transport.name", fluid.transport, transport_words);
+        document_.take("fluid.transport.epsilon", fluid.x_sph);
         choose("fluid.initial_pressure", fluid.initial_pressure,
                {{"hydrostatic", InitialPressure::hydrostatic}, {"zero", InitialPressure::zero}});
         if (double level = 0; document_.take("fluid.surface_level", level)) fluid.surface_level = level;

@@ -65,6 +65,37 @@ class Validation {
             complaints_.add("fluid", "[fluid] has no water in it", "add at least one [[fluid.box]] with min and max");
     }
 
+    // Choices of the fluid's method that do not go together.
+    void fluid_scheme() {
+        if (!scene_.fluid) return;
+        const FluidScene& fluid = *scene_.fluid;
+        const bool riemann =
+            fluid.scheme.name == fluid::Scheme::riemann || fluid.scheme.name == fluid::Scheme::riemann_ale;
+        if (fluid.scheme.riemann_solver == fluid::RiemannSolver::exact && fluid.polytropic_exponent != 7 &&
+            !complaints_.touch("fluid.scheme.riemann_solver"))
+            complaints_.add(
+                "fluid.scheme.riemann_solver",
+                fmt::format("the exact Riemann solver is for water, polytropic_exponent = 7, but it is {:g}",
+                            fluid.polytropic_exponent),
+                "take \"acoustic\", which serves every exponent");
+        for (const char* key : {"reconstruction", "riemann_solver"})
+            if (!riemann && complaints_.positions.contains(std::string("fluid.scheme.") + key))
+                complaints_.add(std::string("fluid.scheme.") + key,
+                                fmt::format("`{}` belongs to the Riemann schemes", key),
+                                "take it out, or choose name = \"riemann\"");
+        for (const char* key : {"delta", "alpha"})
+            if (complaints_.positions.contains(std::string("fluid.scheme.") + key) &&
+                (riemann || (*key == 'd' && fluid.scheme.name != fluid::Scheme::delta_sph)))
+                complaints_.add(std::string("fluid.scheme.") + key,
+                                fmt::format("`{}` does nothing in this scheme", key),
+                                "take it out: it belongs to delta_sph (delta, alpha) or artificial_viscosity (alpha)");
+        if (fluid.transport == fluid::Transport::shifting && fluid.scheme.name != fluid::Scheme::riemann_ale &&
+            !complaints_.touch("fluid.transport.name"))
+            complaints_.add("fluid.transport.name",
+                            "shifted particles must exchange mass and momentum, which this scheme does not",
+                            "choose [fluid.scheme] name = \"riemann_ale\", or no shifting");
+    }
+
     // Whether max lies beyond min; without it no other check of the box makes sense.
     bool ordered(const Box& box, const std::string& key) {
         if (complaints_.touch(key + ".min") || complaints_.touch(key + ".max")) return false;
@@ -318,6 +349,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     if (complaints.positions.contains("domain") && !complaints.touch("domain"))
         validation.ordered(scene.domain, "domain");
     if (scene.dimension == 2) validation.solid();
+    validation.fluid_scheme();
     validation.fluid_boxes();
     validation.walls();
     validation.names();

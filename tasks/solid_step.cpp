@@ -29,7 +29,7 @@ Task interface_gradients(fluid::Fluid<2>& fluid, const coupling::Interface& inte
                 for_each_block((clusters.size() + per_block - 1) / per_block, [&](std::size_t block) {
                     for (std::size_t k = block * per_block; k < std::min(clusters.size(), (block + 1) * per_block); ++k)
                         compute_gradients(fluid.particles, fluid.lists, fluid.kernel,
-                                          lanes_of_cluster(fluid.particles, clusters[k]));
+                                          lanes_of_cluster(fluid.particles, clusters[k]), fluid.gradients());
                 });
             }};
 }
@@ -40,9 +40,8 @@ Task interface_loads(fluid::Fluid<2>& fluid, const fluid::GhostWalls<2>& walls, 
                       resource::fluid_gradients, resource::ghost_gradients},
             .writes = {resource::interface_loads},
             .body = [&fluid, &walls, &interface] {
-                for_each_block(interface.load.blocks(), [&](std::size_t block) {
-                    interface.load.compute(fluid.particles, fluid.kernel, fluid.flux.muscl, block);
-                });
+                for_each_block(interface.load.blocks(),
+                               [&](std::size_t block) { interface.load.compute(fluid, block); });
                 interface.load.spread(fluid.particles, walls, interface.vertex_forces);
                 interface.surface.to_nodes(interface.vertex_forces, interface.fluid_loads);
                 interface.force[0] = interface.force[1] = 0;

@@ -19,7 +19,8 @@ Task time_step(fluid::Fluid<D>& fluid, Clock& clock, StepChoice choice, const st
                 const fluid::StepLimits limits = reduce_blocks(
                     fluid.blocks(), fluid::StepLimits{},
                     [&](std::size_t block) {
-                        return step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block));
+                        return step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
+                                           fluid.kinematic_viscosity());
                     },
                     fluid::combine, std::span<fluid::StepLimits>(*scratch));
                 const double wanted = choice.fraction * limits.step(), left = (clock.end - clock.time) / choice.steps;

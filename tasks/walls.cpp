@@ -55,6 +55,18 @@ Task ghost_gradients(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, 
             }};
 }
 
+template <int D>
+Task ghost_shift(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label) {
+    return {.name = "ghost shift (" + label + ")",
+            .reads = {resource::fluid_lists},
+            .writes = {resource::fluid_shift},
+            .body = [&fluid, &walls] {
+                for_each_block(walls.blocks(), [&](std::size_t block) { walls.update_shift(fluid.particles, block); });
+            }};
+}
+
+template Task ghost_shift(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
+template Task ghost_shift(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
 template Task ghost_state(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
 template Task ghost_state(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
 template Task wall_contact(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);

@@ -20,4 +20,8 @@ Task wall_contact(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, con
 template <int D>
 Task ghost_gradients(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
 
+// δv of periodic images.
+template <int D>
+Task ghost_shift(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
+
 }  // namespace aquagraph::tasks

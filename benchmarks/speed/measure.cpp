@@ -20,8 +20,8 @@
 #include "engine/run.hpp"
 #include "io/scene_reader.hpp"
 #include "physics/fluid/fluid.hpp"
+#include "physics/fluid/fluxes.hpp"
 #include "physics/fluid/gradients.hpp"
-#include "physics/fluid/riemann_flux.hpp"
 
 namespace {
 
@@ -84,10 +84,13 @@ class Lattice {
         const auto blocks = [&](auto&& pass) {
             for (std::size_t b = 0; b < particles_.blocks(); ++b) pass(lanes_of_block(particles_, b));
         };
-        speed.gradients =
-            pairs / time([&] { blocks([&](auto lanes) { compute_gradients(particles_, lists_, kernel_, lanes); }); });
+        speed.gradients = pairs / time([&] {
+                              blocks([&](auto lanes) { compute_gradients<D>(particles_, lists_, kernel_, lanes); });
+                          });
         speed.fluxes = pairs / time([&] {
-                           blocks([&](auto lanes) { compute_fluxes(particles_, lists_, kernel_, {}, 1000.0, lanes); });
+                           blocks([&](auto lanes) {
+                               compute_fluxes<D>(particles_, lists_, kernel_, {}, fluid::Tait{1000, 30}, lanes);
+                           });
                        });
         return speed;
     }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/fluid/runge_kutta.hpp"
+#include "physics/fluid/time_integration.hpp"
 #include "physics/geometry/facet_tree.hpp"
 #include "physics/geometry/inside.hpp"
 

@@ -2,9 +2,13 @@
 #pragma once
 #include <string>
 
+#include "physics/fluid/energy_ledger.hpp"
+#include "physics/fluid/fluxes.hpp"
+#include "physics/fluid/free_surface.hpp"
+#include "physics/fluid/gradients.hpp"
 #include "physics/fluid/health.hpp"
-#include "physics/fluid/riemann_flux.hpp"
-#include "physics/fluid/runge_kutta.hpp"
+#include "physics/fluid/time_integration.hpp"
+#include "physics/fluid/viscosity.hpp"
 
 namespace aquagraph::fluid {
 
@@ -16,22 +20,36 @@ template <int D>
 struct Fluid {
     double spacing;  // Δx [m]
     Tait tait;
-    WendlandC2<D> kernel;
+    Kernel<D> kernel;
     FluxParameters flux;
     double cfl;
     Domain<D> domain;
     bool closed;  // leaving the domain is an error
 
+    Viscosity viscosity{};  // µ = 0: none
+    Transport transport = Transport::none;
+    double x_sph = 0.5;  // ε
+
     Particles<D> particles;
     NeighbourLists<D> lists;
-    RungeKutta<D> runge_kutta;
+    TimeIntegration<D> integration;
     NeighbourSearch<D> search;
     SpatialOrder<D> order;
     Reorder<D> reorder;
+    FreeSurface<D> surface;  // with shifting
+    EnergyLedger ledger;
 
     long rebuilds = 0;          // of the lists
     std::size_t removed = 0;    // particles that have left an open domain
     std::size_t held_back = 0;  // times that a lone particle was stopped at a wall (walls/ghosts.hpp)
+
+    // Tells the particles what they carry besides; before they are made.
+    void prepare_particles() {
+        particles.has_mass_exchange = flux.scheme == Scheme::riemann_ale;
+        particles.has_shift = transport != Transport::none;
+    }
+    GradientsOf gradients() const { return {flux.reads_pressure_gradient(), flux.reads_velocity_gradient()}; }
+    double kinematic_viscosity() const { return viscosity.dynamic / tait.reference_density; }
 
     std::size_t blocks() const { return particles.blocks(); }
     LaneRange lanes(std::size_t block) const { return lanes_of_block(particles, block); }

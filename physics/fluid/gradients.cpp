@@ -51,9 +51,10 @@ constexpr int row<2>[6] = {0, 0, 1};
 template <>
 constexpr int column<2>[6] = {0, 1, 1};
 
-template <int D>
+template <int D, class Kernel, bool pressure, bool velocity>
 struct GradientPass {
     static constexpr int moments = D * (D + 1) / 2;
+    Kernel kernel;
     const double* x[D];
     const double* v[D];
     const double* p;
@@ -61,7 +62,16 @@ struct GradientPass {
     double* grad_p[D];
     double* grad_v[D][D];
     double* fullness;
-    double inverse_radius, slope_factor;
+
+    GradientPass(Particles<D>& s, const Kernel& kernel)
+        : kernel(kernel), p(s.p.data()), volume(s.volume.data()), fullness(s.fullness.data()) {
+        for (int d = 0; d < D; ++d) {
+            x[d] = s.x[d].data();
+            v[d] = s.v[d].data();
+            grad_p[d] = s.grad_p[d].data();
+            for (int e = 0; e < D; ++e) grad_v[d][e] = s.grad_v[d][e].data();
+        }
+    }
 
     struct Own {
         double x[D], v[D], p;
@@ -86,16 +96,20 @@ struct GradientPass {
             dx[d] = x[d][j] - i.x[d];
             r2 += dx[d] * dx[d];
         }
-        const double u = std::max(0.0, 1 - std::sqrt(r2) * inverse_radius);
-        const double w = slope_factor * u * u * u * volume[j] * seen;  // ∇W_ij ω_j = w (x_j - x_i)
-        const double dp = (p[j] - i.p) * w;
+        // ∇W_ij ω_j = w (x_j - x_i)
+        const double w = kernel.slope(std::sqrt(r2) * kernel.inverse_radius()) * volume[j] * seen;
         // Flat loops with constant trip counts: GCC does not unroll a triangular nest early enough to vectorise the
         // lanes.
         for (int k = 0; k < moments; ++k) sum.moment[k][l] += w * dx[row<D>[k]] * dx[column<D>[k]];
-        for (int a = 0; a < D; ++a) sum.p[a][l] += dp * dx[a];
-        for (int e = 0; e < D; ++e) {
-            const double dv = (v[e][j] - i.v[e]) * w;
-            for (int a = 0; a < D; ++a) sum.v[e][a][l] += dv * dx[a];
+        if constexpr (pressure) {
+            const double dp = (p[j] - i.p) * w;
+            for (int a = 0; a < D; ++a) sum.p[a][l] += dp * dx[a];
+        }
+        if constexpr (velocity) {
+            for (int e = 0; e < D; ++e) {
+                const double dv = (v[e][j] - i.v[e]) * w;
+                for (int a = 0; a < D; ++a) sum.v[e][a][l] += dv * dx[a];
+            }
         }
     }
 
@@ -104,6 +118,7 @@ struct GradientPass {
         for (int k = 0; k < moments; ++k) b[k] = add_lanes(sum.moment[k]);
         const double smallest = invert_moment<D>(b, fullness_to_reconstruct);
         fullness[i] = smallest;
+        if constexpr (!pressure && !velocity) return;
         const bool full = smallest > fullness_to_reconstruct;
         double B[D][D];
         for (int a = 0, k = 0; a < D; ++a)
@@ -117,31 +132,29 @@ struct GradientPass {
                 out(a) = value;
             }
         };
-        apply(sum.p, [&](int a) -> double& { return grad_p[a][i]; });
-        for (int e = 0; e < D; ++e) apply(sum.v[e], [&](int a) -> double& { return grad_v[e][a][i]; });
+        if constexpr (pressure) apply(sum.p, [&](int a) -> double& { return grad_p[a][i]; });
+        if constexpr (velocity)
+            for (int e = 0; e < D; ++e) apply(sum.v[e], [&](int a) -> double& { return grad_v[e][a][i]; });
     }
 };
 
 }  // namespace
 
 template <int D>
-void compute_gradients(Particles<D>& s, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel, LaneRange lanes) {
-    GradientPass<D> pass;
-    pass.p = s.p.data();
-    pass.volume = s.volume.data();
-    pass.fullness = s.fullness.data();
-    for (int d = 0; d < D; ++d) {
-        pass.x[d] = s.x[d].data();
-        pass.v[d] = s.v[d].data();
-        pass.grad_p[d] = s.grad_p[d].data();
-        for (int e = 0; e < D; ++e) pass.grad_v[d][e] = s.grad_v[d][e].data();
-    }
-    pass.inverse_radius = 1 / kernel.radius();
-    pass.slope_factor = kernel.slope_factor();
-    pair_loop<D>(lists, lanes, pass);
+void compute_gradients(Particles<D>& s, const NeighbourLists<D>& lists, const Kernel<D>& kernel, LaneRange lanes,
+                       GradientsOf fields) {
+    kernel.visit([&](const auto& k) {
+        using K = std::remove_cvref_t<decltype(k)>;
+        if (fields.velocity)
+            pair_loop<D>(lists, lanes, GradientPass<D, K, true, true>(s, k));
+        else if (fields.pressure)
+            pair_loop<D>(lists, lanes, GradientPass<D, K, true, false>(s, k));
+        else
+            pair_loop<D>(lists, lanes, GradientPass<D, K, false, false>(s, k));
+    });
 }
 
-template void compute_gradients(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&, LaneRange);
-template void compute_gradients(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&, LaneRange);
+template void compute_gradients(Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&, LaneRange, GradientsOf);
+template void compute_gradients(Particles<3>&, const NeighbourLists<3>&, const Kernel<3>&, LaneRange, GradientsOf);
 
 }  // namespace aquagraph::fluid

@@ -10,11 +10,16 @@ namespace aquagraph::fluid {
 
 inline constexpr double fullness_to_reconstruct = 0.2;
 
-// Writes grad_p, grad_v and fullness of these fluid particles (of one block). Reads x, v, p, volume of fluid and
-// ghosts.
+// Which gradients a scheme reads; the fullness comes with each of them and alone.
+struct GradientsOf {
+    bool pressure = true, velocity = true;
+};
+
+// Writes fullness and the gradients asked for of these fluid particles (of one block). Reads x, v, p, volume of fluid
+// and ghosts.
 template <int D>
-void compute_gradients(Particles<D>& particles, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
-                       LaneRange lanes);
+void compute_gradients(Particles<D>& particles, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
+                       LaneRange lanes, GradientsOf fields = {});
 
 // B^-1 = m, symmetric: returns its smallest eigenvalue and replaces m by its inverse where that eigenvalue exceeds
 // `threshold`. m holds the upper triangle row by row: xx xy yy, or xx xy xz yy yz zz.
@@ -25,7 +30,9 @@ double invert_moment<2>(double (&m)[3], double threshold);
 template <>
 double invert_moment<3>(double (&m)[6], double threshold);
 
-extern template void compute_gradients(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&, LaneRange);
-extern template void compute_gradients(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&, LaneRange);
+extern template void compute_gradients(Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&, LaneRange,
+                                       GradientsOf);
+extern template void compute_gradients(Particles<3>&, const NeighbourLists<3>&, const Kernel<3>&, LaneRange,
+                                       GradientsOf);
 
 }  // namespace aquagraph::fluid

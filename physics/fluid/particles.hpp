@@ -42,7 +42,6 @@ struct Particles {
     Scalars deviation;               // ρ - ρ0 [kg/m³]
     Vectors<D> acceleration;         // dv/dt [m/s²]
     Scalars deviation_rate;          // dρ/dt [kg/(m³ s)]
-    Scalars fullness;                // λ, smallest eigenvalue of B^-1: 1 inside, towards 0 at a free surface
     Vectors<D> x_built;              // position when the neighbour lists were built [m]
 
     // Read in pair loops: fluid and ghosts.
@@ -52,11 +51,35 @@ struct Particles {
     Scalars volume;     // ω = m/ρ [m^D]; 0 in unused lanes
     Vectors<D> grad_p;  // renormalised gradients; 0 where the support is too empty to reconstruct
     Tensors<D> grad_v;
+    Scalars fullness;  // λ, smallest eigenvalue of B^-1: 1 inside, towards 0 at a free surface
+
+    // Only where the scene has them, else empty.
+    bool has_mass_exchange = false;  // ALE: mass_rate, exchange
+    bool has_shift = false;          // particles move with v + δv: shift
+    Scalars mass_rate;               // dm/dt [kg/s], fluid particles alone
+    Scalars exchange;                // 1 where mass may pass to and from a lane; 0: mirror images in walls
+    Vectors<D> shift;                // δv [m/s]
 
     // Sets the number of fluid particles and ghosts and makes room; unused lanes become harmless. Values of the first
     // `count` lanes are kept, those of ghosts are not. Allocates only when a part outgrows what it ever had.
     void resize(std::size_t fluid, std::size_t ghosts);
+    std::size_t bytes() const;  // of memory in use
 };
+
+// Bytes of all these fields.
+template <class... Fields>
+std::size_t bytes_of(const Fields&... fields) {
+    const auto one = [](const auto& self, const auto& field) -> std::size_t {
+        if constexpr (requires { field.capacity(); }) {
+            return field.size() * sizeof(field[0]);
+        } else {
+            std::size_t sum = 0;
+            for (const auto& component : field) sum += self(self, component);
+            return sum;
+        }
+    };
+    return (one(one, fields) + ...);
+}
 
 // Lanes of fluid particles, [begin, end), that lie in one block.
 struct LaneRange {

@@ -14,9 +14,10 @@ void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop) {
         for (std::size_t i = lanes.begin; i < lanes.end; ++i)
             for (std::size_t d = 0; d < D; ++d) particles.x_built[d][i] = particles.x[d][i];
     }
-    fluid.runge_kutta.resize(particles);
+    fluid.integration.resize(particles);
     if (walls) walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), Vec<D>(fluid.flux.gravity));
     fluid.search.build(particles, fluid.lists, walls ? &walls->visibility : nullptr, loop);
+    if (fluid.transport == Transport::shifting) fluid.surface.resize(particles);
     ++fluid.rebuilds;
 }
 

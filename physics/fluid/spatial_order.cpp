@@ -76,10 +76,12 @@ void Reorder<D>::apply(Particles<D>& particles, std::span<const std::uint32_t> o
     permute(particles.deviation, buffer_);
     permute(particles.deviation_rate, buffer_);
     permute(particles.fullness, buffer_);
+    if (particles.has_mass_exchange) permute(particles.mass_rate, buffer_);
     for (int d = 0; d < D; ++d) {
         permute(particles.x[d], buffer_);
         permute(particles.v[d], buffer_);
         permute(particles.acceleration[d], buffer_);
+        if (!particles.shift[d].empty()) permute(particles.shift[d], buffer_);
     }
 }
 

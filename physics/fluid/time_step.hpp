@@ -1,5 +1,5 @@
-// Largest stable step (thesis (2.61)): Δt = K min_i(R/c_i), and K' sqrt(R/|a|) with K' = 0.25 where accelerations are
-// what limits. K = 0.375 for RK4.
+// Largest stable step: Δt = K min_i(R/c_i) (thesis (2.61)), 0.125 R² ρ0/µ (2.64) and K' sqrt(R/|a|) with K' = 0.25
+// where accelerations are what limits. K = 0.375 for RK4.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,17 +12,23 @@ namespace aquagraph::fluid {
 struct StepLimits {
     double sound = std::numeric_limits<double>::infinity();         // [s]
     double acceleration = std::numeric_limits<double>::infinity();  // [s]
-    double step() const { return std::min(sound, acceleration); }
-    const char* name() const { return sound <= acceleration ? "sound speed" : "acceleration"; }
+    double viscosity = std::numeric_limits<double>::infinity();     // [s]
+    double step() const { return std::min({sound, acceleration, viscosity}); }
+    const char* name() const {
+        return viscosity < std::min(sound, acceleration) ? "viscosity"
+               : sound <= acceleration                   ? "sound speed"
+                                                         : "acceleration";
+    }
 };
 
 inline StepLimits combine(const StepLimits& a, const StepLimits& b) {
-    return {std::min(a.sound, b.sound), std::min(a.acceleration, b.acceleration)};
+    return {std::min(a.sound, b.sound), std::min(a.acceleration, b.acceleration), std::min(a.viscosity, b.viscosity)};
 }
 
 // Over these particles; the impedance ρc of each gives its sound speed.
 template <int D>
-StepLimits step_limits(const Particles<D>& s, double cfl, double radius, LaneRange lanes) {
+StepLimits step_limits(const Particles<D>& s, double cfl, double radius, LaneRange lanes,
+                       double kinematic_viscosity = 0) {
     double fastest = 0, strongest = 0;
     for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
         double a2 = 0;
@@ -33,6 +39,7 @@ StepLimits step_limits(const Particles<D>& s, double cfl, double radius, LaneRan
     StepLimits limits;
     if (fastest > 0) limits.sound = cfl * radius / fastest;
     if (strongest > 0) limits.acceleration = 0.25 * std::sqrt(radius / std::sqrt(strongest));
+    if (kinematic_viscosity > 0) limits.viscosity = 0.125 * radius * radius / kinematic_viscosity;
     return limits;
 }
 

@@ -91,7 +91,7 @@ TEST_CASE("the load on the body is minus what its ghosts exert on the fluid") {
                           Case{"bent, first order", 0.06, false, false}, Case{"with corners", 0.1, true, true}}) {
         CAPTURE(c.name);
         std::string text = c.corners ? coarse_strip : strip;
-        if (!c.muscl) text = with(text, "sound_speed = 30.0", "sound_speed = 30.0\nreconstruction = \"none\"");
+        if (!c.muscl) text = with(text, "sound_speed = 30.0", "sound_speed = 30.0\nscheme.reconstruction = \"none\"");
         Built built(text);
         disorder(built, Bend{c.amplitude});
         built.compute_loads();

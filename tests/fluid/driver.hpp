@@ -10,8 +10,10 @@
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/gradients.hpp"
 #include "physics/fluid/rebuild.hpp"
+#include "physics/fluid/shifting.hpp"
 #include "physics/fluid/time_step.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
+#include "physics/fluid/x_sph.hpp"
 
 namespace aquagraph::fluid::test {
 
@@ -28,10 +30,12 @@ Fluid<D> make_fluid(double spacing, const Tait& tait, const FluxParameters& flux
                    .closed = false,
                    .particles = {},
                    .lists = {},
-                   .runge_kutta = {},
+                   .integration = {},
                    .search = {},
                    .order = {},
-                   .reorder = {}};
+                   .reorder = {},
+                   .surface = {},
+                   .ledger = {}};
     fluid.lists.radius = fluid.kernel.radius();
     fluid.lists.skin = skin_ratio * fluid.kernel.radius();
     return fluid;
@@ -55,27 +59,74 @@ class Driver {
     }
 
     // Ghosts, gradients and rates of the present state, walls as they are at `at`.
-    void rates(double at, BlockLoop loop = serial_loop) {
+    void rates(double at, BlockLoop loop = serial_loop, bool first = true) {
         auto& s = fluid.particles;
         if (walls) {
             if (motion) motion(walls->panels, at);
             walls->update_geometry();
             loop(walls->blocks(), [&](std::size_t block) { walls->update_state(s, gravity(), block); });
         }
-        loop(fluid.blocks(),
-             [&](std::size_t block) { compute_gradients(s, fluid.lists, fluid.kernel, fluid.lanes(block)); });
-        if (walls) loop(walls->blocks(), [&](std::size_t block) { walls->update_gradients(s, gravity(), block); });
         loop(fluid.blocks(), [&](std::size_t block) {
-            compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait.reference_density, fluid.lanes(block));
+            compute_gradients(s, fluid.lists, fluid.kernel, fluid.lanes(block), fluid.gradients());
         });
+        if (walls) loop(walls->blocks(), [&](std::size_t block) { walls->update_gradients(s, gravity(), block); });
+        if (first) transport(loop);
+        loop(fluid.blocks(), [&](std::size_t block) {
+            compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.lanes(block));
+        });
+        if (fluid.viscosity.dynamic > 0)
+            loop(fluid.blocks(), [&](std::size_t block) {
+                add_viscosity(s, fluid.lists, fluid.kernel, fluid.viscosity, fluid.lanes(block));
+            });
+    }
+
+    void transport(BlockLoop loop) {
+        auto& s = fluid.particles;
+        if (fluid.transport == Transport::x_sph)
+            loop(fluid.blocks(), [&](std::size_t block) {
+                compute_x_sph(s, fluid.lists, fluid.kernel, fluid.x_sph, fluid.lanes(block));
+            });
+        if (fluid.transport == Transport::shifting) shifting(loop);
+        if (walls && fluid.transport != Transport::none)
+            loop(walls->blocks(), [&](std::size_t block) { walls->update_shift(s, block); });
+    }
+
+    void shifting(BlockLoop loop) {
+        auto& s = fluid.particles;
+        loop(fluid.blocks(), [&](std::size_t block) {
+            detect_free_surface(s, fluid.lists, fluid.kernel, fluid.surface, fluid.lanes(block));
+        });
+        loop(fluid.blocks(), [&](std::size_t block) {
+            compute_shift(s, fluid.lists, fluid.kernel, fluid.surface, fluid.lanes(block));
+        });
+    }
+
+    void ledger(int stage, double dt, BlockLoop loop) {
+        fluid.ledger.part.resize(fluid.blocks());
+        loop(fluid.blocks(), [&](std::size_t block) {
+            fluid.ledger.part[block] = energy_rates(fluid.particles, fluid.lists, fluid.kernel, fluid.flux, fluid.tait,
+                                                    fluid.viscosity, fluid.lanes(block));
+        });
+        fluid.ledger.accumulate(fluid.integration.scheme, stage, dt);
+    }
+
+    // What an integration that keeps the rates of the step before wants before the first one.
+    void start(BlockLoop loop = serial_loop) {
+        rebuild(loop);
+        rates(time, loop);
     }
 
     void step(double dt, BlockLoop loop = serial_loop) {
         if (!lists_hold(dt)) rebuild(loop);
-        for (int stage = 0; stage < stages; ++stage) {
-            rates(time + stage_time[stage] * dt, loop);
+        if (fluid.integration.predicts())
             loop(fluid.blocks(), [&](std::size_t block) {
-                advance_stage(fluid.particles, fluid.runge_kutta, fluid.tait, stage, dt, fluid.lanes(block));
+                predict(fluid.particles, fluid.integration, fluid.tait, dt, fluid.lanes(block));
+            });
+        for (int stage = 0; stage < fluid.integration.stages(); ++stage) {
+            rates(time + fluid.integration.stage_time(stage) * dt, loop, stage == 0);
+            if (fluid.ledger.kept) ledger(stage, dt, loop);
+            loop(fluid.blocks(), [&](std::size_t block) {
+                advance_stage(fluid.particles, fluid.integration, fluid.tait, stage, dt, fluid.lanes(block));
             });
         }
         if (walls) fluid.held_back += walls->hold_back(fluid.particles, fluid.spacing);
@@ -85,8 +136,8 @@ class Driver {
     double largest_step() const {
         StepLimits limits;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
-            limits =
-                combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block)));
+            limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
+                                                 fluid.kinematic_viscosity()));
         return limits.step();
     }
 

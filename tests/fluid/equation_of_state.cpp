@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "physics/fluid/runge_kutta.hpp"
+#include "physics/fluid/time_integration.hpp"
 #include "tests/fluid/fixtures.hpp"
 
 using namespace aquagraph::fluid;

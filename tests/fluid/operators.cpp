@@ -18,7 +18,7 @@ template <int D>
 void gradients_everywhere(Particles<D>& s, double radius) {
     const auto lists = lists_of<D>(s, radius, 0.2 * radius);
     for (std::size_t block = 0; block < s.blocks(); ++block)
-        compute_gradients(s, lists, WendlandC2<D>(radius), lanes_of_block(s, block));
+        compute_gradients<D>(s, lists, WendlandC2<D>(radius), lanes_of_block(s, block));
 }
 
 // A free patch, all of whose outer particles belong to the surface, and some spray beside it.

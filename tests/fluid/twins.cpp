@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/fluid/fluxes.hpp"
 #include "physics/fluid/gradients.hpp"
 #include "physics/fluid/riemann.hpp"
-#include "physics/fluid/riemann_flux.hpp"
 #include "tests/fluid/fixtures.hpp"
 
 using namespace aquagraph;
@@ -73,7 +73,7 @@ void check_gradients() {
     Particles<D> s = cloud<D>(spacing, random);
     const auto lists = lists_of<D>(s, radius, 0.25 * radius);
     for (std::size_t block = 0; block < s.blocks(); ++block)
-        compute_gradients(s, lists, kernel, lanes_of_block(s, block));
+        compute_gradients<D>(s, lists, kernel, lanes_of_block(s, block));
 
     double error_fullness = 0, error_p = 0, error_v = 0;
     std::size_t full = 0;
@@ -145,7 +145,7 @@ void check_fluxes(bool muscl) {
     const auto lists = lists_of<D>(s, radius, 0.25 * radius);
     FluxParameters parameters{.muscl = muscl, .gravity = {0.3, -9.81, 2}};
     for (std::size_t block = 0; block < s.blocks(); ++block)
-        compute_fluxes(s, lists, kernel, parameters, rho_0, lanes_of_block(s, block));
+        compute_fluxes<D>(s, lists, kernel, parameters, water, lanes_of_block(s, block));
 
     double error_force = 0, error_dilation = 0;
     for (std::size_t i = 0; i < s.count; ++i) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "physics/fluid/riemann_flux.hpp"
+#include "physics/fluid/schemes/flux_pass.hpp"
 
 namespace aquagraph::coupling {
 
@@ -74,16 +74,15 @@ void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const 
 }
 
 namespace {
-template <bool muscl>
-Vec2 force_on_ghost(const fluid::FluxFields<2>& fields, const fluid::WendlandC2<2>& kernel, std::size_t lane,
+template <class Pair>
+Vec2 force_on_ghost(const fluid::FluxFields<2>& fields, const Pair& pair_flux, std::size_t lane,
                     const std::uint32_t* neighbour, std::size_t n) {
     const auto own = fields.load(lane);
-    const double inverse_radius = 1 / kernel.radius(), slope_factor = kernel.slope_factor();
     double fx = 0, fy = 0;
 #pragma omp simd reduction(- : fx, fy)
     for (std::size_t k = 0; k < n; ++k) {
         double dx[2];
-        const auto flux = fluid::pair_flux<2, muscl>(own, fields, neighbour[k], 1.0, inverse_radius, slope_factor, dx);
+        const auto flux = pair_flux(own, fields, neighbour[k], 1.0, dx);
         fx -= flux.pressure * dx[0];
         fy -= flux.pressure * dx[1];
     }
@@ -91,17 +90,17 @@ Vec2 force_on_ghost(const fluid::FluxFields<2>& fields, const fluid::WendlandC2<
 }
 }  // namespace
 
-void ForceConservativeLoad::compute(const fluid::Particles<2>& particles, const fluid::WendlandC2<2>& kernel,
-                                    bool muscl, std::size_t block) {
-    const fluid::FluxFields<2> fields(particles);
+void ForceConservativeLoad::compute(const fluid::Fluid<2>& fluid, std::size_t block) {
+    const fluid::FluxFields<2> fields(fluid.particles);
     const std::size_t end = std::min(sources_.size(), (block + 1) * sources_per_block);
-    for (std::size_t s = block * sources_per_block; s < end; ++s) {
-        const Source& source = sources_[s];
-        const std::size_t lane = particles.ghost_begin() + source.ghost, n = source.end - source.begin;
-        const std::uint32_t* neighbour = fluid_.data() + source.begin;
-        force_[s] = muscl ? force_on_ghost<true>(fields, kernel, lane, neighbour, n)
-                          : force_on_ghost<false>(fields, kernel, lane, neighbour, n);
-    }
+    fluid::visit_pair<2>(fluid.kernel, fluid.flux, fluid.tait, [&](const auto& pair_flux) {
+        for (std::size_t s = block * sources_per_block; s < end; ++s) {
+            const Source& source = sources_[s];
+            const std::size_t lane = fluid.particles.ghost_begin() + source.ghost;
+            force_[s] =
+                force_on_ghost(fields, pair_flux, lane, fluid_.data() + source.begin, source.end - source.begin);
+        }
+    });
 }
 
 void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const fluid::GhostWalls<2>& walls,

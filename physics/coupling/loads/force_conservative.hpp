@@ -9,7 +9,7 @@
 #pragma once
 #include <vector>
 
-#include "physics/fluid/kernel.hpp"
+#include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 
 namespace aquagraph::coupling {
@@ -28,8 +28,7 @@ class ForceConservativeLoad {
     std::uint64_t pairs() const { return fluid_.size(); }
 
     // The forces of the ghosts of one block. Reads states and gradients of particles and ghosts.
-    void compute(const fluid::Particles<2>& particles, const fluid::WendlandC2<2>& kernel, bool muscl,
-                 std::size_t block);
+    void compute(const fluid::Fluid<2>& fluid, std::size_t block);
     // Adds them up at the vertices of the panels [N] (per metre of depth in 2D), in a fixed order.
     void spread(const fluid::Particles<2>& particles, const fluid::GhostWalls<2>& walls,
                 std::vector<Vec2>& vertex_forces) const;

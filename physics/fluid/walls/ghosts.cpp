@@ -284,6 +284,17 @@ void GhostWalls<D>::update_state(Particles<D>& particles, const Vec<D>& gravity,
         particles.p[lane] = particles.p[j] + density * gravity.dot(m.image - x);
         particles.impedance[lane] = particles.impedance[j];
         particles.volume[lane] = particles.volume[j];
+        // Water goes over into its periodic image, not through a wall.
+        if (particles.has_mass_exchange) particles.exchange[lane] = ghost.is_image() ? 1 : 0;
+    }
+}
+
+template <int D>
+void GhostWalls<D>::update_shift(Particles<D>& particles, std::size_t block) const {
+    const std::size_t begin = block * ghosts_per_block, end = std::min(ghosts.size(), begin + ghosts_per_block);
+    for (std::size_t g = begin; g < end; ++g) {
+        if (!ghosts[g].is_image()) continue;
+        for (auto& component : particles.shift) component[particles.ghost_begin() + g] = component[ghosts[g].parent];
     }
 }
 
@@ -307,6 +318,7 @@ void GhostWalls<D>::update_gradients(Particles<D>& particles, const Vec<D>& grav
             ghost_grad_p = bare ? Vec<D>(Vec<D>::Zero()) : Vec<D>(weight + m.S * (grad_p - weight));
             grad_v = Mat<D>(m.T * grad_v * m.S);
         }
+        particles.fullness[lane] = particles.fullness[j];
         for (int d = 0; d < D; ++d) {
             particles.grad_p[std::size_t(d)][lane] = ghost_grad_p[d];
             for (int e = 0; e < D; ++e) particles.grad_v[std::size_t(d)][std::size_t(e)][lane] = grad_v(d, e);

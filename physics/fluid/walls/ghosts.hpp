@@ -49,6 +49,8 @@ class GhostWalls {
     void update_state(Particles<D>& particles, const Vec<D>& gravity, std::size_t block) const;
     // Their gradients, from their parents'.
     void update_gradients(Particles<D>& particles, const Vec<D>& gravity, std::size_t block) const;
+    // δv of periodic images, from their parents'; through walls nothing is shifted.
+    void update_shift(Particles<D>& particles, std::size_t block) const;
     // A particle alone, a drop of one, has nobody to push against: its own ghost comes arbitrarily close and repels it
     // arbitrarily little. Parents that have come to lie behind their panel are put back onto it and lose the velocity
     // towards it, like a sticky impact. Resolved flow never gets there. Returns how many; deeper than half a spacing

@@ -1,0 +1,41 @@
+// The words by which a scene file chooses, and what they mean: the reader, the resolved scene and the report share
+// them.
+#pragma once
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "physics/fluid/choices.hpp"
+
+namespace aquagraph::io {
+
+template <class E, std::size_t n>
+using Words = std::array<std::pair<std::string_view, E>, n>;
+
+inline constexpr Words<fluid::KernelName, 2> kernel_words{
+    {{"wendland_c2", fluid::KernelName::wendland_c2}, {"cubic_spline", fluid::KernelName::cubic_spline}}};
+inline constexpr Words<fluid::Scheme, 4> scheme_words{{{"riemann", fluid::Scheme::riemann},
+                                                       {"riemann_ale", fluid::Scheme::riemann_ale},
+                                                       {"delta_sph", fluid::Scheme::delta_sph},
+                                                       {"artificial_viscosity", fluid::Scheme::artificial_viscosity}}};
+inline constexpr Words<fluid::RiemannSolver, 3> riemann_solver_words{
+    {{"acoustic", fluid::RiemannSolver::acoustic},
+     {"low_dissipation", fluid::RiemannSolver::low_dissipation},
+     {"exact", fluid::RiemannSolver::exact}}};
+inline constexpr Words<fluid::IntegrationScheme, 3> integration_words{{{"rk4", fluid::IntegrationScheme::rk4},
+                                                                       {"rk3", fluid::IntegrationScheme::rk3},
+                                                                       {"verlet", fluid::IntegrationScheme::verlet}}};
+inline constexpr Words<fluid::ViscousOperator, 2> viscous_operator_words{
+    {{"monaghan_gingold", fluid::ViscousOperator::monaghan_gingold}, {"morris", fluid::ViscousOperator::morris}}};
+inline constexpr Words<fluid::Transport, 3> transport_words{
+    {{"none", fluid::Transport::none}, {"x_sph", fluid::Transport::x_sph}, {"shifting", fluid::Transport::shifting}}};
+
+// The word for a meaning.
+template <class E, std::size_t n>
+constexpr std::string_view word(const Words<E, n>& words, E meaning) {
+    for (const auto& [name, value] : words)
+        if (value == meaning) return name;
+    return {};
+}
+
+}  // namespace aquagraph::io

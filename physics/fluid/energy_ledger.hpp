@@ -1,0 +1,47 @@
+// Where the fluid's energy goes (thesis 5.2-5.3): E_K + E_P + E_C + E_V + E_viscous = initial energy + work of the
+// walls.
+//     E_K, E_P   kinetic and potential, from the state (health.hpp)
+//     E_C        compression: Σ p_i (ω_i/ρ_i) dρ_i/dt
+//     E_V        what stabilises the scheme, irreversible: (5.18) of δ-SPH, (5.31) of Riemann-SPH
+//     E_viscous  what viscosity turns into heat
+//     walls      power of mirror images j on particles i (5.20), (5.32), with Π' = p_i + p_j - 2 p_e:
+//                -Σ_i Σ_j [(p_i v_j + p_j v_i) - ½ Π' (v_i + v_j)]·∇W_ij ω_i ω_j, and friction on no-slip walls
+//                likewise
+// Rates are accumulated with the weights of the time integration, so the balance closes to its error. The pairs are
+// those of the flux pass once more: it costs about as much as the fluxes, and is done only where a scene asks for it.
+// Schemes without mass exchange, walls of mirror images.
+#pragma once
+#include <vector>
+
+#include "physics/fluid/fluxes.hpp"
+#include "physics/fluid/viscosity.hpp"
+
+namespace aquagraph::fluid {
+
+struct EnergyRates {  // [W] ([W/m] in 2D)
+    double compression = 0, dissipation = 0, viscous = 0, walls = 0;
+    EnergyRates& add(double weight, const EnergyRates& rates);
+};
+
+struct EnergyLedger {
+    bool kept = false;
+    EnergyRates sum;                // since the start [J]
+    EnergyRates last;               // Verlet: of the step before
+    std::vector<EnergyRates> part;  // of each block
+
+    // Adds the rates of a stage, blocks in order, weighted as the integration weighs its stages.
+    void accumulate(IntegrationScheme scheme, int stage, double dt);
+};
+
+// The rates of these particles (of one block), in the state in which the flux pass has just been.
+template <int D>
+EnergyRates energy_rates(const Particles<D>& particles, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
+                         const FluxParameters& parameters, const Tait& tait, const Viscosity& viscosity,
+                         LaneRange lanes);
+
+extern template EnergyRates energy_rates(const Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&,
+                                         const FluxParameters&, const Tait&, const Viscosity&, LaneRange);
+extern template EnergyRates energy_rates(const Particles<3>&, const NeighbourLists<3>&, const Kernel<3>&,
+                                         const FluxParameters&, const Tait&, const Viscosity&, LaneRange);
+
+}  // namespace aquagraph::fluid
