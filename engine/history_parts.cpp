@@ -40,13 +40,31 @@ template <int D>
 HistoryPart fluid_energies(const fluid::Fluid<D>& fluid) {
     return {{{"fluid_kinetic_energy", per_depth<D>("J")}, {"fluid_potential_energy", per_depth<D>("J")}},
             [&fluid](std::vector<double>& row) {
-                fluid::FluidEnergies sum;
-                for (std::size_t block = 0; block < fluid.blocks(); ++block) {
-                    const auto part = fluid::energies(fluid.particles, fluid.flux.gravity, fluid.lanes(block));
-                    sum.kinetic += part.kinetic;
-                    sum.potential += part.potential;
-                }
+                const fluid::FluidEnergies sum = total_energies(fluid);
                 row.insert(row.end(), {sum.kinetic, sum.potential});
+            }};
+}
+
+// The balance: kinetic + potential + compression + dissipated + viscous + lost energy - its initial value = wall work,
+// and the residual is what this misses.
+template <int D>
+HistoryPart energy_balance(const fluid::Fluid<D>& fluid) {
+    const char* unit = per_depth<D>("J");
+    return {{{"fluid_compression_energy", unit},
+             {"fluid_dissipated_energy", unit},
+             {"fluid_viscous_heat", unit},
+             {"fluid_lost_energy", unit},
+             {"fluid_wall_work", unit},
+             {"fluid_energy_residual", unit}},
+            [&fluid, initial = std::optional<double>()](std::vector<double>& row) mutable {
+                const fluid::EnergyLedger& ledger = fluid.ledger;
+                const fluid::FluidEnergies state = total_energies(fluid);
+                const double now = state.kinetic + state.potential;
+                if (!initial) initial = now;
+                const double residual = now - *initial + ledger.sum.compression + ledger.sum.dissipation +
+                                        ledger.sum.viscous + ledger.lost - ledger.sum.walls;
+                row.insert(row.end(), {ledger.sum.compression, ledger.sum.dissipation, ledger.sum.viscous, ledger.lost,
+                                       ledger.sum.walls, residual});
             }};
 }
 
@@ -83,6 +101,7 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
     if (model.solid) parts.push_back(tracks(scene, *model.solid));
     if (model.interface) parts.push_back(interface_force(scene, *model.interface));
     if (model.fluid) parts.push_back(fluid_energies(*model.fluid));
+    if (model.fluid && model.fluid->ledger.kept) parts.push_back(energy_balance(*model.fluid));
     if (model.solid) parts.push_back(solid_energies(*model.solid));
     if (model.fluid) parts.push_back(particle_figures(*model.fluid));
     return parts;

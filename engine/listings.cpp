@@ -151,6 +151,7 @@ std::vector<Task> first_evaluation(Model<D>& model) {
     Listing<D> listing(model);
     listing.lists("start");
     listing.evaluation(0, "start", true);
+    if (model.fluid->ledger.kept) listing.add(tasks::energy_ledger(*model.fluid, model.clock, 0, "start"));
     return listing.take();
 }
 

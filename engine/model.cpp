@@ -40,6 +40,7 @@ fluid::Fluid<D> make_fluid(const io::Scene& scene) {
         .ledger = {},
     };
     made.integration.scheme = from.integration;
+    made.ledger.kept = scene.output.energy_ledger;
     made.prepare_particles();
     made.lists.radius = made.kernel.radius();
     made.lists.skin = fluid::skin_ratio * made.kernel.radius();

@@ -119,6 +119,7 @@ struct CouplingScene {
 struct OutputScene {
     double frame_interval = 0;    // [s]
     double history_interval = 0;  // [s]; 0: every coupling cycle
+    bool energy_ledger = false;   // where the fluid's energy goes, and whether the balance closes
 };
 
 struct Compare {

@@ -108,14 +108,15 @@ Json to_json(const Compare& compare) {
 }  // namespace
 
 nlohmann::json to_json(const Scene& scene) {
-    Json json = {
-        {"title", scene.title},
-        {"dimension", scene.dimension},
-        {"gravity", scene.gravity},
-        {"time", {{"end", scene.end_time}}},
-        {"domain", to_json(scene.domain)},
-        {"output",
-         {{"frame_interval", scene.output.frame_interval}, {"history_interval", scene.output.history_interval}}}};
+    Json json = {{"title", scene.title},
+                 {"dimension", scene.dimension},
+                 {"gravity", scene.gravity},
+                 {"time", {{"end", scene.end_time}}},
+                 {"domain", to_json(scene.domain)},
+                 {"output",
+                  {{"frame_interval", scene.output.frame_interval},
+                   {"history_interval", scene.output.history_interval},
+                   {"energy_ledger", scene.output.energy_ledger}}}};
     json["domain"]["edge"] = scene.edge == DomainEdge::closed ? "closed" : "open";
     if (scene.fluid) json["fluid"] = to_json(*scene.fluid, scene.dimension);
     for (const WallScene& wall : scene.walls)

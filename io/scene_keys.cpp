@@ -188,6 +188,9 @@ constexpr auto keys = std::to_array<SceneKey>({
      "between frames for ParaView"},
     {"output", "history_interval", K::number, false, "s", positive, "", "every coupling cycle",
      "between rows of history.csv"},
+    {"output", "energy_ledger", K::boolean, false, "", any, "", "false",
+     "columns of the fluid's compression, dissipated and viscous energy, of the walls' work and of what is missing in "
+     "the balance; costs about a flux pass per stage"},
 
     {"compare", "column", K::text, true, "", any, "", "", "of history.csv, without its unit: tip_x"},
     {"compare", "file", K::text, true, "", any, "", "",

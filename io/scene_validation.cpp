@@ -78,6 +78,9 @@ class Validation {
                 fmt::format("the exact Riemann solver is for water, polytropic_exponent = 7, but it is {:g}",
                             fluid.polytropic_exponent),
                 "take \"acoustic\", which serves every exponent");
+        if (scene_.output.energy_ledger && fluid.scheme.name == fluid::Scheme::riemann_ale)
+            complaints_.add("output.energy_ledger", "the energy ledger is for schemes that keep each particle's mass",
+                            "choose another [fluid.scheme], or energy_ledger = false");
         for (const char* key : {"reconstruction", "riemann_solver"})
             if (!riemann && complaints_.positions.contains(std::string("fluid.scheme.") + key))
                 complaints_.add(std::string("fluid.scheme.") + key,

@@ -65,7 +65,7 @@ class NeighbourSearchTask {
     void rebuild() {
         auto& particles = fluid_.particles;
         if (walls_) check_walls();
-        if (!fluid_.closed) fluid_.removed += remove_outside(particles, fluid_.domain);
+        if (!fluid_.closed) book_loss(fluid_, [&] { fluid_.removed += remove_outside(particles, fluid_.domain); });
         if constexpr (D == 2)
             if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
         rebuild_lists(fluid_, walls_, parallel_loop);

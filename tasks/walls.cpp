@@ -40,7 +40,9 @@ Task wall_contact(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, con
     return {.name = "wall contact (" + label + ")",
             .reads = {resource::walls, resource::fluid_lists},
             .writes = {resource::fluid_state},
-            .body = [&fluid, &walls] { fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing); }};
+            .body = [&fluid, &walls] {
+                book_loss(fluid, [&] { fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing); });
+            }};
 }
 
 template <int D>

@@ -27,6 +27,7 @@ struct EnergyLedger {
     bool kept = false;
     EnergyRates sum;                // since the start [J]
     EnergyRates last;               // Verlet: of the step before
+    double lost = 0;                // kinetic and potential, of particles taken out or stopped at walls [J]
     std::vector<EnergyRates> part;  // of each block
 
     // Adds the rates of a stage, blocks in order, weighted as the integration weighs its stages.

@@ -55,4 +55,26 @@ struct Fluid {
     LaneRange lanes(std::size_t block) const { return lanes_of_block(particles, block); }
 };
 
+// Kinetic and potential energy of all particles.
+template <int D>
+FluidEnergies total_energies(const Fluid<D>& fluid) {
+    FluidEnergies sum;
+    for (std::size_t block = 0; block < fluid.blocks(); ++block) {
+        const FluidEnergies part = energies(fluid.particles, fluid.flux.gravity, fluid.lanes(block));
+        sum.kinetic += part.kinetic;
+        sum.potential += part.potential;
+    }
+    return sum;
+}
+
+// Runs something that takes energy out of the water otherwise than by pair forces, and books it.
+template <int D, class F>
+void book_loss(Fluid<D>& fluid, F&& f) {
+    if (!fluid.ledger.kept) return f();
+    const FluidEnergies before = total_energies(fluid);
+    f();
+    const FluidEnergies after = total_energies(fluid);
+    fluid.ledger.lost += before.kinetic + before.potential - after.kinetic - after.potential;
+}
+
 }  // namespace aquagraph::fluid
