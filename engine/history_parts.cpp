@@ -49,7 +49,7 @@ HistoryPart fluid_energies(const fluid::Fluid<D>& fluid) {
 // and the residual is what this misses.
 template <int D>
 HistoryPart energy_balance(const fluid::Fluid<D>& fluid) {
-    const char* unit = per_depth<D>("J");
+    const std::string unit = per_depth<D>("J");
     return {{{"fluid_compression_energy", unit},
              {"fluid_dissipated_energy", unit},
              {"fluid_viscous_heat", unit},
