@@ -49,6 +49,17 @@ double time_evaluation(fluid::Fluid<D>& fluid, tasks::Executor& executor) {
     return times[times.size() / 2];
 }
 
+void print_filling(std::ostream& out, const FilledBody& body) {
+    if (body.key.starts_with("fluid.box")) return;  // whole cells
+    out << fmt::format("water      {}: {} particles, {:.4g} of {:.4g}, {:+.2f} %", body.key, body.particles,
+                       body.filled, body.volume, 100 * (body.filled / body.volume - 1));
+    if (body.relaxed)
+        out << fmt::format("; kernel sum scatters by {:.2g}, before relaxation {:.2g} ({} steps{})",
+                           body.relaxation.after, body.relaxation.before, body.relaxation.steps,
+                           body.relaxation.reached ? "" : ", tolerance not reached");
+    out << "\n";
+}
+
 template <int D>
 void check_in(const io::Scene& scene, int threads, std::ostream& out) {
     tasks::Executor executor(threads);
@@ -69,6 +80,7 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
         out << fmt::format("fluid      {}; {} particles of {:.4g} m, R/Δx {:g}, {:.0f} neighbours\n",
                            io::scheme_text(*scene.fluid), fluid.particles.count, fluid.spacing,
                            scene.fluid->support_ratio, double(fluid.lists.pairs()) / n);
+        for (const FilledBody& body : model->water) print_filling(out, body);
         if (model->walls)
             out << fmt::format("walls      ghost particles: {} panels, {} ghosts\n", model->walls->panels.panels.size(),
                                model->walls->ghosts.size());

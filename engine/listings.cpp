@@ -57,6 +57,8 @@ class Listing {
             add(tasks::integration_stage(fluid, model_.clock, stage));
         }
         group(label + ", end");
+        if (moving() && fluid.integration.stage_time(fluid.integration.stages() - 1) < 1)
+            add(tasks::wall_motion<D>(*model_.walls, moving(), nullptr, model_.clock, 1, "end"));
         if (model_.walls) add(tasks::wall_contact(fluid, *model_.walls, label));
         add(tasks::advance_clock(model_.clock, label));
         add(tasks::examine(fluid, label));
@@ -65,7 +67,7 @@ class Listing {
     void lists(const std::string& label) {
         coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
         fluid::GhostWalls<D>* walls = model_.walls ? &*model_.walls : nullptr;
-        add(tasks::neighbour_search(*model_.fluid, walls, interface, model_.clock, label));
+        add(tasks::neighbour_search(*model_.fluid, walls, moving(), interface, model_.clock, label));
     }
 
     // The rates of the present state, with walls as they are at `fraction` of the present step.
@@ -94,9 +96,9 @@ class Listing {
     // Walls and ghosts at `fraction` of the present step.
     void boundary(double fraction, const std::string& label) {
         if (!model_.walls) return;
-        if constexpr (D == 2)
-            if (model_.interface)
-                add(tasks::wall_motion(*model_.walls, *model_.interface, model_.clock, fraction, label));
+        const coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
+        if (interface || moving())
+            add(tasks::wall_motion(*model_.walls, moving(), interface, model_.clock, fraction, label));
         add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
     }
 
@@ -110,6 +112,8 @@ class Listing {
     std::vector<Task> take() { return std::move(tasks_); }
 
   private:
+    const fluid::MovingWalls<D>* moving() const { return model_.moving.empty() ? nullptr : &model_.moving; }
+
     Model<D>& model_;
     std::string group_;
     std::vector<Task> tasks_;

@@ -1,11 +1,8 @@
 #include "engine/model.hpp"
 
-#include <limits>
-
 #include "engine/solid_parts.hpp"
 #include "engine/wall_parts.hpp"
 #include "io/scene_reader.hpp"
-#include "physics/fluid/filling.hpp"
 
 namespace aquagraph::engine {
 
@@ -44,15 +41,6 @@ fluid::Fluid<D> make_fluid(const io::Scene& scene) {
     made.prepare_particles();
     made.lists.radius = made.kernel.radius();
     made.lists.skin = fluid::skin_ratio * made.kernel.radius();
-    std::vector<fluid::FillBox<D>> boxes;
-    double top = std::numeric_limits<double>::lowest();
-    for (const io::Box& box : from.boxes) {
-        boxes.push_back({box.min.as<D>(), box.max.as<D>()});
-        top = std::max(top, box.max[D - 1]);
-    }
-    std::optional<double> level;
-    if (from.initial_pressure == io::InitialPressure::hydrostatic) level = from.surface_level.value_or(top);
-    fill(made.particles, boxes, made.spacing, made.tait, -scene.gravity[D - 1], level);
     return made;
 }
 
@@ -66,7 +54,11 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     auto model = std::make_unique<Model<D>>();
     model->clock.end = scene.end_time;
     model->fluid = make_fluid<D>(scene);
-    if (!scene.walls.empty() || scene.solid) add_walls(scene, model->walls.emplace().panels);
+    model->water = fill_with_water<D>(scene, model->fluid->tait, model->fluid->particles);
+    if (!scene.walls.empty() || scene.solid) {
+        add_walls(scene, model->walls.emplace().panels);
+        model->moving = moving_walls(scene, model->walls->panels);
+    }
     if constexpr (D == 2) {
         if (scene.solid) {
             model->solid = make_solid(scene);
@@ -76,6 +68,8 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     if (model->walls) {
         model->walls->panels.update_geometry();
         model->walls->panels.find_joints();
+        part_moving_walls(scene, model->walls->panels);
+        model->moving.place(model->walls->panels, 0);  // and their velocities
     }
     return model;
 }

@@ -4,11 +4,13 @@
 #include <memory>
 #include <optional>
 
+#include "engine/water_parts.hpp"
 #include "io/scene.hpp"
 #include "physics/clock.hpp"
 #include "physics/coupling/interface.hpp"
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
+#include "physics/fluid/walls/motion.hpp"
 #include "physics/solid/solver.hpp"
 
 namespace aquagraph::engine {
@@ -17,7 +19,9 @@ namespace aquagraph::engine {
 template <int D>
 struct Model {
     std::optional<fluid::Fluid<D>> fluid;
+    std::vector<FilledBody> water;  // how it was filled
     std::optional<fluid::GhostWalls<D>> walls;
+    fluid::MovingWalls<D> moving;  // those with a prescribed motion
     std::optional<solid::Solver> solid;
     std::optional<coupling::Interface> interface;
     Clock clock;

@@ -43,6 +43,18 @@ nlohmann::json summary_of(const io::Scene& scene, const Model<D>& model, const R
         summary["neighbour_list_rebuilds"] = model.fluid->rebuilds;
         summary["bytes_per_particle"] = bytes_per_particle(*model.fluid);
     }
+    for (const FilledBody& body : model.water) {
+        nlohmann::json entry = {{"shape", body.key},
+                                {"particles", body.particles},
+                                {"volume", body.volume},
+                                {"filled_volume", body.filled}};
+        if (body.relaxed)
+            entry["relaxation"] = {{"kernel_sum_deviation_before", body.relaxation.before},
+                                   {"kernel_sum_deviation_after", body.relaxation.after},
+                                   {"steps", body.relaxation.steps},
+                                   {"tolerance_reached", body.relaxation.reached}};
+        summary["water"].push_back(entry);
+    }
     if (model.solid) {
         const solid::Statistics statistics = model.solid->statistics();
         summary["elements"] = model.solid->mesh().elements.size();

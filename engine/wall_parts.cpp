@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "io/scene_reader.hpp"
+#include "io/scene_surfaces.hpp"
 
 namespace aquagraph::engine {
 
@@ -46,6 +47,28 @@ std::vector<std::array<int, 3>> triangles_of_face(const io::Scene& scene, std::s
     return triangles;
 }
 
+template <int D>
+void add_shape(const io::Scene& scene, std::size_t w, fluid::Panels<D>& panels) {
+    const io::WallScene& wall = scene.walls[w];
+    const bool no_slip = wall.slip == io::Slip::none;
+    geometry::Surface<D> surface;
+    try {
+        surface = io::wall_surface<D>(wall, scene.fluid->spacing);
+    } catch (const std::exception& error) {  // the reader has tried it, but files may change
+        throw io::scene_error(scene, fmt::format("wall[{}]", w), error.what(), "see [[wall]] in SCENES.md");
+    }
+    if constexpr (D == 2) {
+        const int index = int(panels.names.size()), base = int(panels.position.size());
+        panels.names.push_back(wall.name);
+        panels.position.insert(panels.position.end(), surface.vertices.begin(), surface.vertices.end());
+        panels.velocity.resize(panels.position.size(), fluid::Vec2::Zero());
+        for (const auto& [a, b] : surface.facets)
+            panels.panels.push_back({{base + a, base + b}, index, no_slip, false});
+    } else {
+        panels.add_wall(wall.name, surface.vertices, surface.facets, no_slip);
+    }
+}
+
 }  // namespace
 
 template <int D>
@@ -54,6 +77,10 @@ void add_walls(const io::Scene& scene, fluid::Panels<D>& panels) {
         const io::WallScene& wall = scene.walls[w];
         const std::vector<fluid::Vec<D>> points = points_of<D>(wall);
         const bool no_slip = wall.slip == io::Slip::none;
+        if (points.empty()) {
+            add_shape(scene, w, panels);
+            continue;
+        }
         if constexpr (D == 2)
             panels.add_wall(wall.name, points, wall.closed, no_slip);
         else
@@ -61,6 +88,38 @@ void add_walls(const io::Scene& scene, fluid::Panels<D>& panels) {
     }
 }
 
+template <int D>
+fluid::MovingWalls<D> moving_walls(const io::Scene& scene, const fluid::Panels<D>& panels) {
+    fluid::MovingWalls<D> moving;
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        if (!scene.walls[w].motion) continue;
+        try {
+            moving.add(panels, int(w), io::rigid_motion<D>(*scene.walls[w].motion, scene.end_time));
+        } catch (const std::exception& error) {
+            throw io::scene_error(scene, fmt::format("wall[{}].motion", w), error.what(),
+                                  "see [wall.motion] in SCENES.md");
+        }
+    }
+    return moving;
+}
+
+template <int D>
+void part_moving_walls(const io::Scene& scene, fluid::Panels<D>& panels) {
+    const auto moves = [&](int panel) {
+        const auto wall = std::size_t(panels.panels[std::size_t(panel)].wall);
+        return wall < scene.walls.size() && scene.walls[wall].motion.has_value();  // behind them the solid's
+    };
+    const auto wall_of = [&](int panel) { return panels.panels[std::size_t(panel)].wall; };
+    std::erase_if(panels.joints, [&](const fluid::Joint<D>& joint) {
+        const auto [a, b] = joint.panel;
+        return wall_of(a) != wall_of(b) && (moves(a) || moves(b));
+    });
+}
+
+template void part_moving_walls(const io::Scene&, fluid::Panels<2>&);
+template void part_moving_walls(const io::Scene&, fluid::Panels<3>&);
+template fluid::MovingWalls<2> moving_walls(const io::Scene&, const fluid::Panels<2>&);
+template fluid::MovingWalls<3> moving_walls(const io::Scene&, const fluid::Panels<3>&);
 template void add_walls(const io::Scene&, fluid::Panels<2>&);
 template void add_walls(const io::Scene&, fluid::Panels<3>&);
 

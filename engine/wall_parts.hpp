@@ -1,6 +1,7 @@
 // The rigid walls of a scene as panels: the place where every kind of [[wall]] is turned into them.
 #pragma once
 #include "io/scene.hpp"
+#include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/panels.hpp"
 
 namespace aquagraph::engine {
@@ -9,5 +10,13 @@ namespace aquagraph::engine {
 // or not convex.
 template <int D>
 void add_walls(const io::Scene& scene, fluid::Panels<D>& panels);
+
+// Those of them that move by themselves; panels as add_walls has made them, every [[wall]] with its index.
+template <int D>
+fluid::MovingWalls<D> moving_walls(const io::Scene& scene, const fluid::Panels<D>& panels);
+
+// Takes out joints between a wall that moves by itself and another: where walls meet now they need not stay joined.
+template <int D>
+void part_moving_walls(const io::Scene& scene, fluid::Panels<D>& panels);
 
 }  // namespace aquagraph::engine

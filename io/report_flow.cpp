@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "io/report_parts.hpp"
+#include "io/scene_surfaces.hpp"
 
 namespace aquagraph::io {
 namespace {
@@ -110,6 +111,26 @@ nlohmann::json frame_json(const FlowRecord::Frame& frame, const Box& view,
             {"at", base64(at)}, {"values", values},    {"outlines", outlines}};
 }
 
+// Shapes as they are computed with; of a surface of very many panels only some are drawn.
+template <int D>
+void put_facets(nlohmann::json& walls, const geometry::Surface<D>& surface) {
+    constexpr std::size_t most = 4000;
+    const std::size_t step = surface.facets.size() / most + 1;
+    for (std::size_t f = 0; f < surface.facets.size(); f += step) {
+        nlohmann::json flat = nlohmann::json::array();
+        for (std::size_t k = 0; k < D; ++k)
+            for (int d = 0; d < D; ++d) flat.push_back(rounded(surface.vertex(f, k)[d]));
+        walls.push_back({{"points", flat}, {"closed", D == 3}});
+    }
+}
+
+void put_facets(nlohmann::json& walls, const WallScene& wall, const Scene& scene) {
+    if (scene.dimension == 2)
+        put_facets(walls, wall_surface<2>(wall, scene.fluid->spacing));
+    else
+        put_facets(walls, wall_surface<3>(wall, scene.fluid->spacing));
+}
+
 }  // namespace
 
 nlohmann::json flow_player(const Scene& scene, const FlowRecord& flow) {
@@ -135,7 +156,10 @@ nlohmann::json flow_player(const Scene& scene, const FlowRecord& flow) {
         nlohmann::json flat = nlohmann::json::array();
         for (const Point& p : wall.points)
             for (const double x : p) flat.push_back(x);
-        walls.push_back({{"points", flat}, {"closed", wall.closed || scene.dimension == 3}});
+        if (wall.points.empty())
+            put_facets(walls, wall, scene);
+        else
+            walls.push_back({{"points", flat}, {"closed", wall.closed || scene.dimension == 3}});
     }
     nlohmann::json corners = view.min;
     for (const double x : view.max) corners.push_back(x);

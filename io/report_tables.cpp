@@ -66,6 +66,16 @@ std::string solid_table(const SolidScene& solid) {
     return table("Solid (finite elements)", rows);
 }
 
+std::string shape(const WallScene& wall) {
+    if (wall.box) return "box";
+    if (wall.rectangle) return "rectangle";
+    if (wall.extrusion) return "extruded polyline";
+    if (wall.round) return wall.round->centre.dimension() == 2 ? "circle" : "sphere";
+    if (wall.cylinder) return "cylinder";
+    if (wall.stl) return wall.stl->file.filename().string();
+    return fmt::format("{} points{}", wall.points.size(), wall.closed ? ", closed" : "");
+}
+
 std::string family_class(std::string_view family) {
     constexpr std::array<std::string_view, 4> known{"fluid", "solid", "coupling", "output"};
     return std::find(known.begin(), known.end(), family) != known.end() ? std::string(family) : "other";
@@ -213,9 +223,8 @@ std::string parameter_tables(const Scene& scene) {
         rows.emplace_back("step, of the CFL step", fmt::format("{:g}", scene.coupling.step_fraction));
     }
     for (const WallScene& wall : scene.walls)
-        rows.emplace_back(
-            "wall", fmt::format("{}, {} points{}, {}", wall.name, wall.points.size(), wall.closed ? ", closed" : "",
-                                wall.slip == Slip::free ? "free slip" : "no slip"));
+        rows.emplace_back("wall", fmt::format("{}, {}{}, {}", wall.name, shape(wall), wall.motion ? ", moves" : "",
+                                              wall.slip == Slip::free ? "free slip" : "no slip"));
     return text + table("Run", rows) + "</div>\n";
 }
 

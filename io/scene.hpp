@@ -11,12 +11,9 @@
 #include "physics/fluid/choices.hpp"
 
 #include "io/point.hpp"
+#include "io/scene_geometry.hpp"
 
 namespace aquagraph::io {
-
-struct Box {
-    Point min{}, max{};
-};
 
 struct SourcePosition {
     int line = 0, column = 0;
@@ -25,7 +22,6 @@ struct SourcePosition {
 enum class Reconstruction { muscl, none };
 enum class Slip { free, none };
 enum class DomainEdge { closed, open };
-enum class InitialPressure { hydrostatic, zero };
 
 // How pairs of particles act on each other; [fluid.scheme].
 struct FluidScheme {
@@ -51,16 +47,26 @@ struct FluidScene {
     fluid::Transport transport = fluid::Transport::none;
     double x_sph = 0.5;  // ε
     InitialPressure initial_pressure = InitialPressure::hydrostatic;
-    std::optional<double> surface_level;  // height at which p = 0 [m]; default: the highest top of the boxes
-    std::vector<Box> boxes;               // filled with particles at the centres of Δx cells
+    std::optional<double> surface_level;  // height at which p = 0 [m]; default: the highest top of the water
+    std::vector<WaterBox> boxes;          // filled with particles at the centres of Δx cells
+    std::vector<RegionScene> regions;     // polygons, discs, balls, closed STL volumes
+    bool relax = false;                   // regions, to a regular distribution before t = 0
+    double relax_tolerance = 2e-3;        // of the standard deviation of the kernel sum
 };
 
-// In 2D a polyline with the fluid on the left of the direction of travel; in 3D the corners of a flat convex face,
-// counter-clockwise as seen from the fluid.
+// Exactly one shape. points: in 2D a polyline with the fluid on the left of the direction of travel; in 3D the corners
+// of a flat face, counter-clockwise as seen from the fluid.
 struct WallScene {
     std::string name;
     std::vector<Point> points;
     bool closed = false;
+    std::optional<BoxShape> box;
+    std::optional<RectangleShape> rectangle;
+    std::optional<ExtrusionShape> extrusion;
+    std::optional<RoundShape> round;
+    std::optional<CylinderShape> cylinder;
+    std::optional<StlShape> stl;
+    std::optional<MotionScene> motion;
     Slip slip = Slip::free;
 };
 

@@ -11,6 +11,8 @@ int agree_on_dimension(const CheckedDocument& document, Complaints& complaints) 
     const int dimension = corner.dimension();
     const auto compare = [&](const std::string& key, const Point& point) {
         if (point.dimension() == dimension) return;
+        // What is drawn along an axis is drawn in a plane.
+        if (point.dimension() == 2 && key.find(".extrusion.points") != std::string::npos) return;
         complaints.add(key,
                        fmt::format("a point of {} coordinates in a scene of {} dimensions: [{}]", point.dimension(),
                                    dimension, fmt::join(point, ", ")),

@@ -1,7 +1,6 @@
 #include "io/scene_json.hpp"
 
-#include <algorithm>
-
+#include "io/scene_surfaces.hpp"
 #include "io/scene_words.hpp"
 
 namespace aquagraph::io {
@@ -14,8 +13,97 @@ Json to_json(const Box& box) {
     return {{"min", box.min}, {"max", box.max}};
 }
 
+const char* side(geometry::FluidSide fluid) {
+    return fluid == geometry::FluidSide::inside ? "inside" : "outside";
+}
+
+Json to_json(const RoundShape& round) {
+    Json json = {{"centre", round.centre}, {"radius", round.radius}};
+    if (round.chord_error) json["chord_error"] = *round.chord_error;
+    return json;
+}
+
+Json to_json(const StlShape& stl, const char* file_key) {
+    return {{file_key, stl.file.filename().string()},
+            {"scale", stl.scale},
+            {"axis", stl.axis},
+            {"angle", stl.angle},
+            {"translate", stl.translate}};
+}
+
+template <class Value>
+Json to_json(const LawScene<Value>& law) {
+    Json json = {{"ramp", law.ramp}};
+    if (law.constant) json["velocity"] = *law.constant;
+    if (law.amplitude) json.update({{"amplitude", *law.amplitude}, {"frequency", law.frequency}, {"phase", law.phase}});
+    return json;
+}
+
+Json to_json(const MotionScene& motion, int dimension) {
+    Json json = Json::object();
+    if (!motion.table.empty())
+        json = {{"table", motion.table.filename().string()}, {"after", motion.hold ? "hold" : "refuse"}};
+    if (motion.translation) json["translation"] = to_json(*motion.translation);
+    if (motion.rotation) {
+        json["rotation"] = to_json(*motion.rotation);
+        json["rotation"]["centre"] = motion.centre;
+        if (dimension == 3) json["rotation"]["axis"] = motion.axis;
+    }
+    return json;
+}
+
+Json to_json(const WallScene& wall) {
+    Json json = {{"name", wall.name}, {"slip", wall.slip == Slip::free ? "free" : "none"}};
+    int dimension = 3;
+    if (wall.box) {
+        json["box"] = to_json(wall.box->box);
+        json["box"].update({{"fluid", side(wall.box->fluid)}, {"open", wall.box->open}});
+        dimension = wall.box->box.min.dimension();
+    } else if (wall.rectangle) {
+        json["rectangle"] = {
+            {"corner", wall.rectangle->corner}, {"side_a", wall.rectangle->side_a}, {"side_b", wall.rectangle->side_b}};
+    } else if (wall.extrusion) {
+        const ExtrusionShape& shape = *wall.extrusion;
+        json["extrusion"] = {{"points", shape.points}, {"closed", shape.closed},
+                             {"caps", shape.caps},     {"axis", std::string(1, char('x' + shape.axis))},
+                             {"from", shape.from},     {"to", shape.to}};
+    } else if (wall.round) {
+        dimension = wall.round->centre.dimension();
+        Json& round = json[dimension == 2 ? "circle" : "sphere"];
+        round = to_json(*wall.round);
+        round["fluid"] = side(wall.round->fluid);
+    } else if (wall.cylinder) {
+        const CylinderShape& shape = *wall.cylinder;
+        json["cylinder"] = {{"from", shape.from},
+                            {"to", shape.to},
+                            {"radius", shape.radius},
+                            {"fluid", side(shape.fluid)},
+                            {"open", shape.open}};
+        if (shape.chord_error) json["cylinder"]["chord_error"] = *shape.chord_error;
+    } else if (wall.stl) {
+        json["stl"] = to_json(*wall.stl, "file");
+        json["stl"].update({{"closed", wall.stl->closed}, {"fluid", side(wall.stl->fluid)}});
+    } else {
+        json["points"] = wall.points;
+        json["closed"] = wall.closed;
+        if (!wall.points.empty()) dimension = wall.points[0].dimension();
+    }
+    if (wall.motion) json["motion"] = to_json(*wall.motion, dimension);
+    return json;
+}
+
+Json to_json(const RegionScene& region, const FluidScene& fluid) {
+    Json json = region.round ? to_json(*region.round)
+                : region.stl ? to_json(*region.stl, "stl")
+                             : Json{{"points", region.points}};
+    json["velocity"] = region.velocity;
+    json["initial_pressure"] = is_hydrostatic(region, fluid) ? "hydrostatic" : "zero";
+    json["clearance"] = region.clearance;
+    if (region.level) json["level"] = *region.level;
+    return json;
+}
+
 Json to_json(const FluidScene& fluid, int dimension) {
-    const auto up = static_cast<std::size_t>(dimension - 1);
     Json json = {{"spacing", fluid.spacing},
                  {"density", fluid.density},
                  {"sound_speed", fluid.sound_speed},
@@ -41,12 +129,17 @@ Json to_json(const FluidScene& fluid, int dimension) {
         json["transport"] = {{"name", word(transport_words, fluid.transport)}};
         if (fluid.transport == fluid::Transport::x_sph) json["transport"]["epsilon"] = fluid.x_sph;
     }
-    double top = 0;
-    for (std::size_t k = 0; k < fluid.boxes.size(); ++k) {
-        json["box"].push_back(to_json(fluid.boxes[k]));
-        top = k == 0 ? fluid.boxes[k].max[up] : std::max(top, fluid.boxes[k].max[up]);
+    for (const WaterBox& box : fluid.boxes) {
+        json["box"].push_back(to_json(box));
+        json["box"].back()["velocity"] = box.velocity;
     }
-    json["surface_level"] = fluid.surface_level.value_or(top);
+    for (const RegionScene& region : fluid.regions)
+        json[region.key.substr(6, region.key.find('[') - 6)].push_back(to_json(region, fluid));
+    if (!fluid.regions.empty()) {
+        json["relax"] = fluid.relax;
+        json["relax_tolerance"] = fluid.relax_tolerance;
+    }
+    json["surface_level"] = surface_level(fluid, dimension);
     return json;
 }
 
@@ -119,11 +212,7 @@ nlohmann::json to_json(const Scene& scene) {
                    {"energy_ledger", scene.output.energy_ledger}}}};
     json["domain"]["edge"] = scene.edge == DomainEdge::closed ? "closed" : "open";
     if (scene.fluid) json["fluid"] = to_json(*scene.fluid, scene.dimension);
-    for (const WallScene& wall : scene.walls)
-        json["wall"].push_back({{"name", wall.name},
-                                {"points", wall.points},
-                                {"closed", wall.closed},
-                                {"slip", wall.slip == Slip::free ? "free" : "none"}});
+    for (const WallScene& wall : scene.walls) json["wall"].push_back(to_json(wall));
     if (scene.solid) json["solid"] = to_json(*scene.solid);
     for (const ProbeScene& probe : scene.probes) json["probe"].push_back(to_json(probe));
     if (scene.fluid && scene.solid)

@@ -8,6 +8,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/scene_dimension.hpp"
+#include "io/scene_geometry_reader.hpp"
 #include "io/scene_validation.hpp"
 #include "io/scene_words.hpp"
 #include "io/suggestion.hpp"
@@ -108,6 +109,9 @@ class Filler {
             document_.take(fmt::format("fluid.box[{}].min", i), box.min);
             document_.take(fmt::format("fluid.box[{}].max", i), box.max);
         }
+        document_.take("fluid.relax", fluid.relax);
+        document_.take("fluid.relax_tolerance", fluid.relax_tolerance);
+        read_water(document_, scene_.file.parent_path(), scene_.dimension, fluid);
     }
 
     void walls() {
@@ -118,6 +122,7 @@ class Filler {
             document_.take(at + "points", wall.points);
             document_.take(at + "closed", wall.closed);
             choose(at + "slip", wall.slip, {{"free", Slip::free}, {"none", Slip::none}});
+            read_wall_geometry(document_, fmt::format("wall[{}]", i), scene_.file.parent_path(), wall);
         }
     }
 

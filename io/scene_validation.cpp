@@ -9,6 +9,7 @@
 #include <set>
 
 #include "io/comparison.hpp"
+#include "io/scene_geometry_validation.hpp"
 #include "io/scene_keys.hpp"
 #include "io/suggestion.hpp"
 
@@ -61,7 +62,7 @@ class Validation {
                 "solid", "a solid in three dimensions cannot be computed yet",
                 "take [solid] and [coupling] out, or make the scene two-dimensional: [domain] min = [x, y]");
         if (!fluid) return;
-        if (scene_.fluid->boxes.empty() && !complaints_.touch("fluid.box"))
+        if (scene_.fluid->boxes.empty() && scene_.fluid->regions.empty() && !complaints_.touch("fluid.box"))
             complaints_.add("fluid", "[fluid] has no water in it", "add at least one [[fluid.box]] with min and max");
     }
 
@@ -144,7 +145,7 @@ class Validation {
         for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
             const std::string key = element("wall", i, "points");
             const std::vector<Point>& points = scene_.walls[i].points;
-            if (complaints_.touch(key)) continue;
+            if (complaints_.touch(key) || !complaints_.positions.contains(key)) continue;
             const auto fewest = static_cast<std::size_t>(scene_.dimension);  // a segment, a triangle
             if (points.size() < fewest) {
                 complaints_.add(
@@ -355,6 +356,9 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.fluid_scheme();
     validation.fluid_boxes();
     validation.walls();
+    validate_wall_shapes(scene, complaints);
+    validate_motions(scene, complaints);
+    validate_regions(scene, complaints);
     validation.names();
     validation.probes();
     validation.comparisons();

@@ -19,9 +19,9 @@ struct Reach {
 template <int D>
 class NeighbourSearchTask {
   public:
-    NeighbourSearchTask(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, coupling::Interface* interface,
-                        const Clock& clock)
-        : fluid_(fluid), walls_(walls), interface_(interface), clock_(clock) {}
+    NeighbourSearchTask(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const fluid::MovingWalls<D>* moving,
+                        coupling::Interface* interface, const Clock& clock)
+        : fluid_(fluid), walls_(walls), moving_(moving), interface_(interface), clock_(clock) {}
 
     void operator()() {
         if (lists_hold()) return;
@@ -56,7 +56,12 @@ class NeighbourSearchTask {
             double wall2 = 0;
             for (std::size_t k = 0; k < built_.size(); ++k)
                 wall2 = std::max(wall2, (walls_->panels.position[k] - built_[k]).squaredNorm());
-            moved += std::sqrt(wall2);
+            double wall = std::sqrt(wall2);
+            // Where prescribed motions will be during the step is known.
+            if (moving_)
+                for (const double fraction : {0.0, 0.5, 1.0})
+                    wall = std::max(wall, moving_->largest_distance(built_, clock_.time + fraction * clock_.step));
+            moved += wall;
         }
         if (interface_) moved += clock_.step * interface_->surface.largest_speed();
         return moved < 0.5 * fluid_.lists.skin;
@@ -66,6 +71,7 @@ class NeighbourSearchTask {
         auto& particles = fluid_.particles;
         if (walls_) check_walls();
         if (!fluid_.closed) book_loss(fluid_, [&] { fluid_.removed += remove_outside(particles, fluid_.domain); });
+        if (moving_) moving_->place(walls_->panels, clock_.time);
         if constexpr (D == 2)
             if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
         rebuild_lists(fluid_, walls_, parallel_loop);
@@ -86,6 +92,7 @@ class NeighbourSearchTask {
 
     fluid::Fluid<D>& fluid_;
     fluid::GhostWalls<D>* walls_;
+    const fluid::MovingWalls<D>* moving_;
     coupling::Interface* interface_;
     const Clock& clock_;
     std::vector<Reach> scratch_;
@@ -96,19 +103,19 @@ class NeighbourSearchTask {
 }  // namespace
 
 template <int D>
-Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, coupling::Interface* interface,
-                      const Clock& clock, const std::string& label) {
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const fluid::MovingWalls<D>* moving,
+                      coupling::Interface* interface, const Clock& clock, const std::string& label) {
     // Held by pointer: the graph copies bodies.
-    auto search = std::make_shared<NeighbourSearchTask<D>>(fluid, walls, interface, clock);
+    auto search = std::make_shared<NeighbourSearchTask<D>>(fluid, walls, moving, interface, clock);
     return {.name = "neighbour search (" + label + ")",
             .reads = {resource::clock_step, resource::interface_motion},
             .writes = {resource::fluid, resource::walls},
             .body = [search] { (*search)(); }};
 }
 
-template Task neighbour_search(fluid::Fluid<2>&, fluid::GhostWalls<2>*, coupling::Interface*, const Clock&,
-                               const std::string&);
-template Task neighbour_search(fluid::Fluid<3>&, fluid::GhostWalls<3>*, coupling::Interface*, const Clock&,
-                               const std::string&);
+template Task neighbour_search(fluid::Fluid<2>&, fluid::GhostWalls<2>*, const fluid::MovingWalls<2>*,
+                               coupling::Interface*, const Clock&, const std::string&);
+template Task neighbour_search(fluid::Fluid<3>&, fluid::GhostWalls<3>*, const fluid::MovingWalls<3>*,
+                               coupling::Interface*, const Clock&, const std::string&);
 
 }  // namespace aquagraph::tasks

@@ -4,15 +4,17 @@
 #include "physics/coupling/interface.hpp"
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
+#include "physics/fluid/walls/motion.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
 
-// walls: null where the scene has none; interface: null without a solid. A rebuild takes out particles that have left
-// an open domain, re-sorts the others, mirrors them anew and renews the lists and everything that is indexed like them.
-// Throws SickParticle (tasks/stepping.hpp) if a particle has passed through a wall.
+// walls: null where the scene has none; moving: where none of them moves by itself; interface: without a solid. A
+// rebuild takes out particles that have left an open domain, re-sorts the others, mirrors them anew and renews the
+// lists and everything that is indexed like them. Throws SickParticle (tasks/stepping.hpp) if a particle has passed
+// through a wall.
 template <int D>
-Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, coupling::Interface* interface,
-                      const Clock& clock, const std::string& label);
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const fluid::MovingWalls<D>* moving,
+                      coupling::Interface* interface, const Clock& clock, const std::string& label);
 
 }  // namespace aquagraph::tasks

@@ -12,13 +12,16 @@ fluid::Vec<D> gravity_of(const fluid::Fluid<D>& fluid) {
 }
 }  // namespace
 
-Task wall_motion(fluid::GhostWalls<2>& walls, const coupling::Interface& interface, const Clock& clock, double fraction,
-                 const std::string& label) {
+template <int D>
+Task wall_motion(fluid::GhostWalls<D>& walls, const fluid::MovingWalls<D>* moving, const coupling::Interface* interface,
+                 const Clock& clock, double fraction, const std::string& label) {
     return {.name = "wall motion (" + label + ")",
             .reads = {resource::clock_step, resource::interface_motion, resource::fluid_lists},
             .writes = {resource::walls},
-            .body = [&walls, &interface, &clock, fraction] {
-                interface.surface.place(walls.panels, clock.elapsed + fraction * clock.step);
+            .body = [&walls, moving, interface, &clock, fraction] {
+                if (moving) moving->place(walls.panels, clock.time + fraction * clock.step);
+                if constexpr (D == 2)
+                    if (interface) interface->surface.place(walls.panels, clock.elapsed + fraction * clock.step);
                 walls.update_geometry();
             }};
 }
@@ -69,6 +72,10 @@ Task ghost_shift(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, cons
 
 template Task ghost_shift(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
 template Task ghost_shift(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
+template Task wall_motion(fluid::GhostWalls<2>&, const fluid::MovingWalls<2>*, const coupling::Interface*, const Clock&,
+                          double, const std::string&);
+template Task wall_motion(fluid::GhostWalls<3>&, const fluid::MovingWalls<3>*, const coupling::Interface*, const Clock&,
+                          double, const std::string&);
 template Task ghost_state(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
 template Task ghost_state(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
 template Task wall_contact(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);

@@ -4,13 +4,16 @@
 #include "physics/coupling/interface.hpp"
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
+#include "physics/fluid/walls/motion.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
 
-// Moves the wet panels to `fraction` of the present step (0 … 1), extrapolated from the last exchange.
-Task wall_motion(fluid::GhostWalls<2>& walls, const coupling::Interface& interface, const Clock& clock, double fraction,
-                 const std::string& label);
+// Moves the walls to `fraction` of the present step (0 … 1): those with a prescribed motion exactly, wet panels
+// extrapolated from the last exchange. moving and interface: null where the scene has none.
+template <int D>
+Task wall_motion(fluid::GhostWalls<D>& walls, const fluid::MovingWalls<D>* moving, const coupling::Interface* interface,
+                 const Clock& clock, double fraction, const std::string& label);
 // Places the ghosts and gives them their parents' state.
 template <int D>
 Task ghost_state(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
