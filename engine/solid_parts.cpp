@@ -39,16 +39,25 @@ bool inside(const solid::Mesh& mesh, const std::vector<solid::SurfaceEdge>& boun
     return odd;
 }
 
+// The key of the water that a particle belongs to, before any has been re-sorted.
+std::string body_of(const Model<2>& model, std::size_t particle) {
+    for (const FilledBody& body : model.water) {
+        if (particle < body.particles) return body.key;
+        particle -= body.particles;
+    }
+    return "fluid";
+}
+
 void refuse_water_inside(const io::Scene& scene, const Model<2>& model) {
     const auto& mesh = model.solid->mesh();
     const auto boundary = solid::boundary_edges(mesh);
     const auto& particles = model.fluid->particles;
     for (std::size_t i = 0; i < particles.count; ++i)
         if (inside(mesh, boundary, particles.x[0][i], particles.x[1][i]))
-            throw io::scene_error(scene, "fluid.box[0]",
+            throw io::scene_error(scene, body_of(model, i),
                                   "there is water inside the solid, at (" + std::to_string(particles.x[0][i]) + ", " +
                                       std::to_string(particles.x[1][i]) + ") m",
-                                  "cut the box so that it ends at the solid's surface");
+                                  "cut the water so that it ends at the solid's surface");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "io/scene_reader.hpp"
 #include "io/scene_surfaces.hpp"
 #include "physics/geometry/facet_tree.hpp"
@@ -55,6 +57,16 @@ void refuse_water_behind_walls(const io::Scene& scene, const std::vector<std::st
         wall_of.resize(all.facets.size(), w);
     }
     if (all.facets.empty()) return;
+    // A baffle without thickness is two walls in one place: water may stand on either side.
+    std::vector<geometry::FacetTree<D>> single;
+    const auto before_another = [&](const geometry::Vec<D>& x, double distance) {
+        if (single.empty())
+            for (const io::WallScene& wall : scene.walls) single.emplace_back(io::wall_surface<D>(wall, spacing));
+        return std::any_of(single.begin(), single.end(), [&](const geometry::FacetTree<D>& wall) {
+            const auto nearest = wall.nearest(x, distance + touching * spacing);
+            return nearest.facet >= 0 && !nearest.rim && nearest.side() > 0;
+        });
+    };
     weld(all, touching * spacing);
     const geometry::FacetTree<D> tree(all);
     const double reach = scene.fluid->support_ratio * spacing;
@@ -65,6 +77,7 @@ void refuse_water_behind_walls(const io::Scene& scene, const std::vector<std::st
             const std::size_t w = wall_of[std::size_t(nearest.facet)];
             const io::WallScene& wall = scene.walls[w];
             if (!io::is_closed(wall) && nearest.distance > reach) continue;
+            if (before_another(x, nearest.distance)) continue;
             throw io::scene_error(
                 scene, fmt::format("wall[{}]", w),
                 fmt::format("there is water on the wrong side of wall '{}': a particle of {} at {}, {:g} m behind it",

@@ -16,7 +16,8 @@ void refuse_overlapping_water(const io::Scene& scene, const std::vector<std::str
 
 // Throws io::SceneError where a particle lies behind the wall that is nearest to it: at any distance if that wall is
 // closed (inside an obstacle, outside a tank), within the kernel's radius if it is open, for what lies beyond its end
-// is on no side of it. Walls that meet count as one.
+// is on no side of it. Walls that meet count as
+// one; of two walls in the same place either may have water before it.
 template <int D>
 void refuse_water_behind_walls(const io::Scene& scene, const std::vector<std::string>& keys,
                                const std::vector<fluid::Water<D>>& water);
