@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "engine/frames.hpp"
+#include "engine/wall_parts.hpp"
 #include "io/scene_reader.hpp"
 #include "io/summary.hpp"
 #include "tasks/resources.hpp"
@@ -186,6 +187,7 @@ void Results<D>::record_flow() {
                 outline.push_back({x[2 * std::size_t(node)], x[2 * std::size_t(node) + 1]});
         frame.outlines.push_back(std::move(outline));
     }
+    if (model_.walls) frame.walls = moving_panels(scene_, model_.walls->panels);
     flow_.add(frame);
 }
 

@@ -116,6 +116,30 @@ void part_moving_walls(const io::Scene& scene, fluid::Panels<D>& panels) {
     });
 }
 
+template <int D>
+std::vector<std::vector<io::Point>> moving_panels(const io::Scene& scene, const fluid::Panels<D>& panels) {
+    constexpr std::size_t most = 500;
+    std::vector<std::size_t> moving;
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        const auto wall = std::size_t(panels.panels[k].wall);
+        if (wall < scene.walls.size() && scene.walls[wall].motion) moving.push_back(k);
+    }
+    std::vector<std::vector<io::Point>> corners;
+    for (std::size_t m = 0; m < moving.size(); m += moving.size() / most + 1) {
+        auto& panel = corners.emplace_back();
+        for (std::size_t k = 0; k < D; ++k) {
+            const fluid::Vec<D>& x = panels.vertex(moving[m], k);
+            if constexpr (D == 2)
+                panel.emplace_back(x[0], x[1]);
+            else
+                panel.emplace_back(x[0], x[1], x[2]);
+        }
+    }
+    return corners;
+}
+
+template std::vector<std::vector<io::Point>> moving_panels(const io::Scene&, const fluid::Panels<2>&);
+template std::vector<std::vector<io::Point>> moving_panels(const io::Scene&, const fluid::Panels<3>&);
 template void part_moving_walls(const io::Scene&, fluid::Panels<2>&);
 template void part_moving_walls(const io::Scene&, fluid::Panels<3>&);
 template fluid::MovingWalls<2> moving_walls(const io::Scene&, const fluid::Panels<2>&);

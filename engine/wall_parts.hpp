@@ -19,4 +19,8 @@ fluid::MovingWalls<D> moving_walls(const io::Scene& scene, const fluid::Panels<D
 template <int D>
 void part_moving_walls(const io::Scene& scene, fluid::Panels<D>& panels);
 
+// Corners of the panels of walls that move by themselves, where they are now, for the film; of very many only some.
+template <int D>
+std::vector<std::vector<io::Point>> moving_panels(const io::Scene& scene, const fluid::Panels<D>& panels);
+
 }  // namespace aquagraph::engine

@@ -11,6 +11,7 @@ std::size_t embedded_bytes(const FlowRecord::Frame& frame) {
     std::size_t bytes =
         2 * (frame.x.size() + frame.y.size() + frame.z.size()) + frame.pressure.size() + frame.speed.size();
     for (const auto& outline : frame.outlines) bytes += 4 * outline.size();
+    for (const auto& panel : frame.walls) bytes += 4 * panel.size();
     return bytes;
 }
 
@@ -40,7 +41,8 @@ void FlowRecord::add(const ReportFrame& frame) {
                thinned(frame.z, every),
                thinned(frame.pressure, every),
                thinned(frame.speed, every),
-               frame.outlines};
+               frame.outlines,
+               frame.walls};
     bytes_ += embedded_bytes(kept);
     frames_.push_back(std::move(kept));
     while (frames_.size() > 2 && (bytes_ > limits_.bytes || frames_.size() > limits_.frames)) {

@@ -19,6 +19,7 @@ struct ReportFrame {
     std::span<const double> speed;             // [m/s]; as long as x, or empty
     std::vector<std::vector<Point>> outlines;  // of the solids, closed polygons, deformed [m]
     std::span<const double> z{};               // in 3D: as long as x [m]
+    std::vector<std::vector<Point>> walls{};   // panels of walls that move, where they are now [m]
 };
 
 class FlowRecord {
@@ -32,7 +33,7 @@ class FlowRecord {
         double time = 0;
         std::size_t every = 1;                        // of so many particles one is kept
         std::vector<float> x, y, z, pressure, speed;  // z: in 3D
-        std::vector<std::vector<Point>> outlines;
+        std::vector<std::vector<Point>> outlines, walls;
     };
 
     // spacing: Δx [m], the size of a drawn particle.

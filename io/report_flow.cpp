@@ -107,8 +107,15 @@ nlohmann::json frame_json(const FlowRecord::Frame& frame, const Box& view,
         for (const Point& p : outline) flat.push_back(rounded(p[0])), flat.push_back(rounded(p[1]));
         outlines.push_back(flat);
     }
-    return {{"t", frame.time},  {"n", frame.x.size()}, {"every", frame.every},
-            {"at", base64(at)}, {"values", values},    {"outlines", outlines}};
+    nlohmann::json json = {{"t", frame.time},  {"n", frame.x.size()}, {"every", frame.every},
+                           {"at", base64(at)}, {"values", values},    {"outlines", outlines}};
+    for (const auto& panel : frame.walls) {
+        nlohmann::json flat = nlohmann::json::array();
+        for (const Point& p : panel)
+            for (const double x : p) flat.push_back(rounded(x));
+        json["walls"].push_back(flat);
+    }
+    return json;
 }
 
 // Shapes as they are computed with; of a surface of very many panels only some are drawn.
@@ -153,6 +160,7 @@ nlohmann::json flow_player(const Scene& scene, const FlowRecord& flow) {
     offer(&FlowRecord::Frame::speed, "speed", "m/s");
     for (const FlowRecord::Frame& frame : flow.frames()) frames.push_back(frame_json(frame, view, fields));
     for (const WallScene& wall : scene.walls) {
+        if (wall.motion) continue;  // every frame has it where it is
         nlohmann::json flat = nlohmann::json::array();
         for (const Point& p : wall.points)
             for (const double x : p) flat.push_back(x);

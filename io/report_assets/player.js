@@ -158,6 +158,7 @@
     pen.lineWidth = D === 3 ? 1.2 : 2.5;
     pen.globalAlpha = opacity;
     for (const wall of flow.walls) { path(wall.points, wall.closed, D); pen.stroke(); }
+    for (const panel of flow.frames[shown].walls || []) { path(panel, D === 3, D); pen.stroke(); }
     pen.globalAlpha = 1;
   }
 
