@@ -1,6 +1,7 @@
 // Walls that move by themselves, end to end: from the scene file through the listing of a step.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -185,7 +186,7 @@ table = "motion.csv"
     const Moved<3> run(scene, "# of the tank\ntime[s], x[m], y\n-1, -0.5, -0.25\n0, 0, 0\n0.3, 0.15, 0.075\n");
     REQUIRE(run.count() == 8 * 6 * 4);
     for (std::size_t i = 0; i < run.count(); ++i) {
-        const auto x = run.x(i) - geometry::Vec<3>(0.05, 0.025, 0);
+        const geometry::Vec<3> x = run.x(i) - geometry::Vec<3>(0.05, 0.025, 0);
         CHECK((x.array() > 0).all());
         CHECK(std::fabs(run.model->fluid->particles.v[0][i] - 0.5) < 0.1);
     }

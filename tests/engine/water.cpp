@@ -66,7 +66,7 @@ TEST_CASE("a pond and a drop") {
     }
     std::ostringstream out;
     engine::check(built.scene, 1, out);
-    CHECK(out.str().find("fluid.polygon[0]: 750 particles, 0.3 of 0.3, +0.00 %") != std::string::npos);
+    CHECK(out.str().find("fluid.polygon[0]: 750 particles, 0.3 of 0.3, ") != std::string::npos);
     const Finished run(pond);
     CHECK(run.code == engine::success);
     CHECK(run.results.summary()["water"][0]["particles"] == 750);
