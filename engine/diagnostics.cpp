@@ -1,10 +1,15 @@
 #include "engine/diagnostics.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "engine/probes.hpp"
+#include "physics/fluid/gradients.hpp"
+#include "physics/fluid/rebuild.hpp"
+#include "physics/fluid/walls/wall_forces.hpp"
 #include "tasks/parallel_loop.hpp"
 #include "tasks/resources.hpp"
+#include "tasks/walls.hpp"
 
 namespace aquagraph::engine {
 
@@ -33,12 +38,78 @@ Diagnostic probes(const io::Scene& scene, const Model<D>& model) {
         part};
 }
 
+// The water's force on the walls that ask for it, at the end of the cycle: from the state reached there, with ghosts
+// and gradients of their own. Nothing that the next step reads is changed.
+template <int D>
+class WallForcesTask {
+  public:
+    WallForcesTask(const io::Scene& scene, Model<D>& model) : fluid_(*model.fluid), walls_(*model.walls) {
+        for (std::size_t w = 0; w < scene.walls.size(); ++w)
+            if (scene.walls[w].force) forces_.emplace_back(int(w));
+    }
+
+    void measure() {
+        if (fluid_.rebuilds == 0) rebuild_lists(fluid_, &walls_, tasks::parallel_loop);  // before the first step
+        tasks::ghost_state(fluid_, walls_, "").body();
+        fullness_ = fluid_.particles.fullness;
+        for (fluid::WallForces<D>& wall : forces_) {
+            wall.rebuild(fluid_, walls_);
+            gradients(wall.gradient_clusters());
+        }
+        tasks::ghost_gradients(fluid_, walls_, "").body();
+        for (fluid::WallForces<D>& wall : forces_)
+            tasks::for_each_block(wall.blocks(), [&](std::size_t block) { wall.compute(fluid_, block); });
+        std::copy(fullness_.begin(), fullness_.end(), fluid_.particles.fullness.begin());
+    }
+
+    void append(std::vector<double>& row) const {
+        for (const fluid::WallForces<D>& wall : forces_) {
+            const fluid::Vec<D> force = wall.force();
+            row.insert(row.end(), force.begin(), force.end());
+        }
+    }
+
+  private:
+    void gradients(const std::vector<std::uint32_t>& clusters) {
+        constexpr std::size_t per_block = 8;
+        tasks::for_each_block((clusters.size() + per_block - 1) / per_block, [&](std::size_t block) {
+            for (std::size_t k = block * per_block; k < std::min(clusters.size(), (block + 1) * per_block); ++k)
+                compute_gradients(fluid_.particles, fluid_.lists, fluid_.kernel,
+                                  lanes_of_cluster(fluid_.particles, clusters[k]), fluid_.gradients());
+        });
+    }
+
+    fluid::Fluid<D>& fluid_;
+    fluid::GhostWalls<D>& walls_;
+    std::vector<fluid::WallForces<D>> forces_;
+    fluid::Scalars fullness_;
+};
+
+template <int D>
+Diagnostic wall_forces(const io::Scene& scene, Model<D>& model) {
+    auto forces = std::make_shared<WallForcesTask<D>>(scene, model);
+    HistoryPart part;
+    for (const io::WallScene& wall : scene.walls)
+        for (std::size_t d = 0; d < D && wall.force; ++d)
+            part.columns.push_back({wall.name + "_force_" + "xyz"[d], D == 2 ? "N/m" : "N"});
+    part.append = [forces](std::vector<double>& row) { forces->append(row); };
+    return {{.name = "wall forces",
+             .reads = {resource::fluid_lists, resource::fluid_state, resource::walls},
+             .writes = {resource::fluid_ghosts, resource::fluid_gradients, resource::ghost_gradients,
+                        resource::fluid_rates},
+             .body = [forces] { forces->measure(); }},
+            part};
+}
+
 }  // namespace
 
 template <int D>
 std::vector<Diagnostic> make_diagnostics(const io::Scene& scene, Model<D>& model) {
     std::vector<Diagnostic> all;
     if (!scene.probes.empty()) all.push_back(probes(scene, model));
+    const bool forces =
+        std::any_of(scene.walls.begin(), scene.walls.end(), [](const io::WallScene& wall) { return wall.force; });
+    if (forces) all.push_back(wall_forces(scene, model));
     return all;
 }
 

@@ -53,7 +53,7 @@ std::string pass_name(const std::string& task) {
 std::string family_of(const std::string& pass) {
     if (pass == "FE Newton solve") return "solid";
     if (pass == "exchange" || pass == "interface loads" || pass == "wall motion") return "coupling";
-    if (pass == "history" || pass == "frames" || pass == "probes") return "output";
+    if (pass == "history" || pass == "frames" || pass == "probes" || pass == "wall forces") return "output";
     return "fluid";
 }
 

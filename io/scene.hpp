@@ -68,6 +68,7 @@ struct WallScene {
     std::optional<StlShape> stl;
     std::optional<MotionScene> motion;
     Slip slip = Slip::free;
+    bool force = false;  // columns NAME_force_x … of the history
 };
 
 enum class MaterialLaw { saint_venant_kirchhoff, neo_hookean };

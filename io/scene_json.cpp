@@ -53,7 +53,7 @@ Json to_json(const MotionScene& motion, int dimension) {
 }
 
 Json to_json(const WallScene& wall) {
-    Json json = {{"name", wall.name}, {"slip", wall.slip == Slip::free ? "free" : "none"}};
+    Json json = {{"name", wall.name}, {"slip", wall.slip == Slip::free ? "free" : "none"}, {"force", wall.force}};
     int dimension = 3;
     if (wall.box) {
         json["box"] = to_json(wall.box->box);

@@ -230,6 +230,8 @@ constexpr auto keys = std::to_array<SceneKey>({
      "no two in a row the same; in 2D two or more, in 3D the corners of a flat convex face"},
     {"wall", "closed", K::boolean, false, "", any, "", "false", "joins the last point to the first; 2D only"},
     {"wall", "slip", K::choice, false, "", any, "free none", "free", "along the wall: free slip or no slip"},
+    {"wall", "force", K::boolean, false, "", any, "", "false",
+     "writes the water's force on the wall into history.csv, as NAME_force_x and so on"},
 
     {"wall.box", "min", K::point, true, "m", any, "", "", "lower left corner"},
     {"wall.box", "max", K::point, true, "m", any, "", "", "upper right corner"},

@@ -121,6 +121,7 @@ class Filler {
             document_.take(at + "name", wall.name);
             document_.take(at + "points", wall.points);
             document_.take(at + "closed", wall.closed);
+            document_.take(at + "force", wall.force);
             choose(at + "slip", wall.slip, {{"free", Slip::free}, {"none", Slip::none}});
             read_wall_geometry(document_, fmt::format("wall[{}]", i), scene_.file.parent_path(), wall);
         }
