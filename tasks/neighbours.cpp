@@ -36,21 +36,22 @@ class NeighbourSearchTask {
             std::span<fluid::Travel>(scratch_));
     }
 
-    // What walls will move in the coming step.
+    // What walls will move in the coming step. Where prescribed motions will be is known.
     double walls_travel() const {
-        double speed2 = 0;
-        if (walls_)
-            for (const auto& v : walls_->panels.velocity) speed2 = std::max(speed2, v.squaredNorm());
-        double speed = std::sqrt(speed2);
-        if (interface_) speed = std::max(speed, interface_->surface.largest_speed());
-        return clock_.step * speed;
+        double travel = interface_travel();
+        if (walls_ && moving_)
+            for (const double fraction : {0.0, 0.5, 1.0})
+                travel = std::max(
+                    travel, moving_->largest_distance(walls_->panels.position, clock_.time + fraction * clock_.step));
+        return travel;
     }
+    double interface_travel() const { return interface_ ? clock_.step * interface_->surface.largest_speed() : 0; }
 
     // Two particles, or a particle and the mirror image of another, come closer by at most twice the largest
     // displacement of particles plus twice that of walls. The coming step is counted in.
     bool lists_hold(const fluid::Travel& travel) const {
         if (!built_once_) return false;
-        double moved = travel.so_far() + travel.of_step(clock_.step) + walls_travel();
+        double moved = travel.so_far() + travel.of_step(clock_.step) + interface_travel();
         if (walls_) {
             double wall2 = 0;
             for (std::size_t k = 0; k < built_.size(); ++k)
