@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "physics/fluid/rebuild.hpp"
+#include "physics/fluid/travel.hpp"
 #include "tasks/parallel_loop.hpp"
 #include "tasks/resources.hpp"
 #include "tasks/stepping.hpp"
@@ -11,10 +12,6 @@
 namespace aquagraph::tasks {
 
 namespace {
-
-struct Reach {
-    double displacement2 = 0, speed2 = 0;
-};
 
 template <int D>
 class NeighbourSearchTask {
@@ -24,34 +21,37 @@ class NeighbourSearchTask {
         : fluid_(fluid), walls_(walls), moving_(moving), interface_(interface), clock_(clock) {}
 
     void operator()() {
-        if (lists_hold()) return;
-        rebuild();
+        const fluid::Travel travel = most_travelled();
+        if (!lists_hold(travel)) rebuild();
+        fluid::prune(fluid_.particles, fluid_.lists,
+                     fluid::skin_of_step(travel, clock_.step, walls_travel(), fluid_.lists.radius), parallel_loop);
     }
 
   private:
-    // Two particles, or a particle and the mirror image of another, come closer by at most twice the largest
-    // displacement of particles plus twice that of walls. The coming step is counted in at present speeds.
-    bool lists_hold() {
-        const auto& particles = fluid_.particles;
-        if (!built_once_) return false;
+    fluid::Travel most_travelled() {
         scratch_.resize(fluid_.blocks());
-        const Reach reach = reduce_blocks(
-            fluid_.blocks(), Reach{},
-            [&](std::size_t block) {
-                Reach r{largest_displacement_squared(particles, block), 0};
-                const auto lanes = fluid_.lanes(block);
-                for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
-                    double v2 = 0;
-                    for (std::size_t d = 0; d < D; ++d) v2 += particles.v[d][i] * particles.v[d][i];
-                    r.speed2 = std::max(r.speed2, v2);
-                }
-                return r;
-            },
-            [](const Reach& a, const Reach& b) {
-                return Reach{std::max(a.displacement2, b.displacement2), std::max(a.speed2, b.speed2)};
-            },
-            std::span<Reach>(scratch_));
-        double moved = std::sqrt(reach.displacement2) + clock_.step * std::sqrt(reach.speed2);
+        return reduce_blocks(
+            fluid_.blocks(), fluid::Travel{},
+            [&](std::size_t block) { return fluid::travel(fluid_.particles, fluid_.lanes(block)); }, fluid::largest,
+            std::span<fluid::Travel>(scratch_));
+    }
+
+    // What walls will move in the coming step. Where prescribed motions will be is known.
+    double walls_travel() const {
+        double travel = interface_travel();
+        if (walls_ && moving_)
+            for (const double fraction : {0.0, 0.5, 1.0})
+                travel = std::max(
+                    travel, moving_->largest_distance(walls_->panels.position, clock_.time + fraction * clock_.step));
+        return travel;
+    }
+    double interface_travel() const { return interface_ ? clock_.step * interface_->surface.largest_speed() : 0; }
+
+    // Two particles, or a particle and the mirror image of another, come closer by at most twice the largest
+    // displacement of particles plus twice that of walls. The coming step is counted in.
+    bool lists_hold(const fluid::Travel& travel) const {
+        if (!built_once_) return false;
+        double moved = travel.so_far() + travel.of_step(clock_.step) + interface_travel();
         if (walls_) {
             double wall2 = 0;
             for (std::size_t k = 0; k < built_.size(); ++k)
@@ -63,7 +63,6 @@ class NeighbourSearchTask {
                     wall = std::max(wall, moving_->largest_distance(built_, clock_.time + fraction * clock_.step));
             moved += wall;
         }
-        if (interface_) moved += clock_.step * interface_->surface.largest_speed();
         return moved < 0.5 * fluid_.lists.skin;
     }
 
@@ -95,7 +94,7 @@ class NeighbourSearchTask {
     const fluid::MovingWalls<D>* moving_;
     coupling::Interface* interface_;
     const Clock& clock_;
-    std::vector<Reach> scratch_;
+    std::vector<fluid::Travel> scratch_;
     bool built_once_ = false;           // by this task: lists from before the run do not say where walls stood
     std::vector<fluid::Vec<D>> built_;  // vertices of walls when the lists were built
 };

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -17,6 +18,9 @@
 #include <sstream>
 #include <thread>
 
+#include "benchmarks/speed/block.hpp"
+#include "benchmarks/speed/results_file.hpp"
+#include "benchmarks/speed/steps.hpp"
 #include "engine/run.hpp"
 #include "io/scene_reader.hpp"
 #include "physics/fluid/fluid.hpp"
@@ -26,9 +30,11 @@
 namespace {
 
 using namespace aquagraph;
+using aquagraph::benchmarks::seconds_of;
 
-constexpr int rounds = 5;       // of passes and yardstick
-constexpr int case_rounds = 3;  // of whole runs
+constexpr int rounds = 5;              // of passes and yardstick
+constexpr int case_rounds = 3;         // of whole runs
+constexpr double skin_of_step = 0.02;  // over R: a step at Mach 0.02
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -36,7 +42,8 @@ double median(std::vector<double> values) {
 }
 
 struct PassSpeed {
-    double gradients = 0, fluxes = 0, search = 0;  // Mpairs/s of one core; search: ns per particle
+    double gradients = 0, fluxes = 0;        // Mpairs/s of one core
+    double search = 0, tree = 0, prune = 0;  // ns per particle
 };
 
 // A disturbed lattice of n^D particles, as in the yardstick; lists with the skin that runs use.
@@ -78,9 +85,15 @@ class Lattice {
             }
             return best;
         };
+        search_.method = fluid::SearchMethod::tree;
+        speed.tree = seconds_of([&] { search_.build(particles_, lists_, nullptr, serial_loop); });
+        search_.method = fluid::SearchMethod::cell_grid;
         const double search = time([&] { search_.build(particles_, lists_, nullptr, serial_loop); });
+        const double prune = time([&] { fluid::prune(particles_, lists_, skin_of_step * lists_.radius, serial_loop); });
         const double pairs = double(lists_.pairs()) / 1e6;
         speed.search = 1e9 * search / double(particles_.count);
+        speed.tree *= 1e9 / double(particles_.count);
+        speed.prune = 1e9 * prune / double(particles_.count);
         const auto blocks = [&](auto&& pass) {
             for (std::size_t b = 0; b < particles_.blocks(); ++b) pass(lanes_of_block(particles_, b));
         };
@@ -122,29 +135,39 @@ std::map<std::string, double> yardstick() {
 }
 
 std::string pass_table() {
-    Lattice<2> plane(200, 4.0);
-    Lattice<3> coarse(48, 2.11), space(48, 3.0);
-    std::map<std::string, std::vector<double>> limit, gradients, fluxes, search;
+    struct Measured {
+        std::vector<double> limit, gradients, fluxes, search, tree, prune;
+    };
+    std::map<std::string, Measured> all;
+    std::vector<std::pair<std::string, std::function<PassSpeed()>>> set_ups;
+    for (const double radius : {2.6, 4.0})
+        set_ups.push_back({fmt::format("2D, R/Δx {:.2f}", radius),
+                           [lattice = std::make_shared<Lattice<2>>(200, radius)] { return lattice->measure(); }});
+    for (const double radius : {2.11, 2.6, 3.0})
+        set_ups.push_back({fmt::format("3D, R/Δx {:.2f}", radius),
+                           [lattice = std::make_shared<Lattice<3>>(48, radius)] { return lattice->measure(); }});
     for (int round = 0; round < rounds; ++round) {
         std::cerr << "passes, round " << round + 1 << " of " << rounds << "\n";
-        for (const auto& [name, value] : yardstick()) limit[name].push_back(value);
-        const auto add = [&](const std::string& name, const PassSpeed& speed) {
-            gradients[name].push_back(speed.gradients);
-            fluxes[name].push_back(speed.fluxes);
-            search[name].push_back(speed.search);
-        };
-        add("2D, R/Δx 4.00", plane.measure());
-        add("3D, R/Δx 2.11", coarse.measure());
-        add("3D, R/Δx 3.00", space.measure());
+        for (const auto& [name, value] : yardstick()) all[name].limit.push_back(value);
+        for (const auto& [name, measure] : set_ups) {
+            const PassSpeed speed = measure();
+            Measured& m = all[name];
+            m.gradients.push_back(speed.gradients);
+            m.fluxes.push_back(speed.fluxes);
+            m.search.push_back(speed.search);
+            m.tree.push_back(speed.tree);
+            m.prune.push_back(speed.prune);
+        }
     }
     std::string text =
-        "| set-up | yardstick [Mpairs/s] | flux pass | of the yardstick | gradient pass | neighbour search "
-        "[ns/particle] "
-        "|\n|---|---|---|---|---|---|\n";
-    for (const auto& [name, values] : fluxes)
-        text += fmt::format("| {} | {:.0f} | {:.0f} | {:.0f} % | {:.0f} | {:.0f} |\n", name, median(limit[name]),
-                            median(values), 100 * median(values) / median(limit[name]), median(gradients[name]),
-                            median(search[name]));
+        "| set-up | yardstick [Mpairs/s] | flux pass | of the yardstick | gradient pass | search [ns/particle] | the "
+        "same by nanoflann | pruning |\n|---|---|---|---|---|---|---|---|\n";
+    for (const auto& [name, m] : all) {
+        if (m.fluxes.empty()) continue;
+        text += fmt::format("| {} | {:.0f} | {:.0f} | {:.0f} % | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", name,
+                            median(m.limit), median(m.fluxes), 100 * median(m.fluxes) / median(m.limit),
+                            median(m.gradients), median(m.search), median(m.tree), median(m.prune));
+    }
     return text;
 }
 
@@ -198,25 +221,30 @@ std::string processor() {
 
 }  // namespace
 
-int main() {
+// `--passes` leaves the cases out and writes nothing but to the terminal.
+int main(int argc, char** argv) {
     try {
+        const bool with_cases = argc < 2 || std::string(argv[1]) != "--passes";
         const int threads = int(std::thread::hardware_concurrency());
         std::string text =
-            "# Measured results\n\nWritten by `aquagraph-measure`; to repeat:\n\n"
+            "## Speed\n\nWritten by `aquagraph-measure`; to repeat:\n\n"
             "    ./aquagraph build aquagraph-measure && build/release/benchmarks/aquagraph-measure\n\n";
         text += fmt::format("Machine: {}, {} threads; compiler GCC {}.\n\n", processor(), threads, __VERSION__);
         text += fmt::format(
             "## Pair passes\n\nOne core, double precision, disturbed lattice; the yardstick is "
-            "`benchmarks/speed/pair_flux_limit.cpp` (its best form, lists without skin; ours have a skin of "
+            "`benchmarks/speed/pair_flux_limit.cpp` (its best form, lists without skin; ours are pruned to a skin of "
             "{:g} R). Medians of {} alternating rounds.\n\n",
-            fluid::skin_ratio, rounds);
+            skin_of_step, rounds);
         text += pass_table();
-        text += fmt::format(
-            "\n## Cases: speed and error\n\nWall time of the whole run with all output on {} threads, "
-            "median of {} (scenes finer than 1.5 mm: one run).\n\n",
-            threads, case_rounds);
-        text += case_table(threads);
-        std::ofstream(AQUAGRAPH_SOURCE_DIR "/benchmarks/RESULTS.md") << text;
+        text += benchmarks::step_tables(threads);
+        if (with_cases) {
+            text += fmt::format(
+                "\n## Cases: speed and error\n\nWall time of the whole run with all output on {} threads, "
+                "median of {} (scenes finer than 1.5 mm: one run).\n\n",
+                threads, case_rounds);
+            text += case_table(threads);
+            benchmarks::write_section(AQUAGRAPH_SOURCE_DIR "/benchmarks/RESULTS.md", "speed", text);
+        }
         std::cout << text;
         return 0;
     } catch (const std::exception& error) {

@@ -7,6 +7,8 @@
 #include "physics/fluid/free_surface.hpp"
 #include "physics/fluid/gradients.hpp"
 #include "physics/fluid/health.hpp"
+#include "physics/fluid/neighbour_search.hpp"
+#include "physics/fluid/spatial_order.hpp"
 #include "physics/fluid/time_integration.hpp"
 #include "physics/fluid/viscosity.hpp"
 

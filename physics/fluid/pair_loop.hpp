@@ -16,7 +16,7 @@ namespace aquagraph::fluid {
 template <int D, class Pass>
 [[gnu::flatten]] void pair_loop(const NeighbourLists<D>& lists, LaneRange lanes, const Pass& pass) {
     const std::size_t block = lanes.begin / (clusters_per_block * W), block_begin = block * clusters_per_block * W;
-    const NeighbourBlock& list = lists.blocks[block];
+    const NeighbourBlock& list = lists.visited(block);
     const std::uint32_t* const open = list.open.data();
     const std::uint32_t* const masked = list.masked.data();
     for (std::size_t i = lanes.begin; i < lanes.end; ++i) {

@@ -6,14 +6,14 @@ template <int D>
 void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop) {
     Particles<D>& particles = fluid.particles;
     if (walls && walls->periodic.any()) walls->periodic.wrap(particles);
-    fluid.reorder.apply(particles, fluid.order.sort(particles.x, particles.count, fluid.spacing));
-    for (std::size_t block = 0; block < fluid.blocks(); ++block) {
+    fluid.reorder.apply(particles, fluid.order.sort(particles.x, particles.count, fluid.spacing, loop), loop);
+    loop(fluid.blocks(), [&](std::size_t block) {
         // Pressure, impedance and volume follow from what has been re-sorted.
         const LaneRange lanes = fluid.lanes(block);
         update_state(particles, fluid.tait, lanes);
         for (std::size_t i = lanes.begin; i < lanes.end; ++i)
             for (std::size_t d = 0; d < D; ++d) particles.x_built[d][i] = particles.x[d][i];
-    }
+    });
     fluid.integration.resize(particles);
     if (walls) walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), Vec<D>(fluid.flux.gravity));
     fluid.search.build(particles, fluid.lists, walls ? &walls->visibility : nullptr, loop);

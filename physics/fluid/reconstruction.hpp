@@ -6,10 +6,10 @@
 
 namespace aquagraph::fluid {
 
-// The one of smaller magnitude if both have the same sign, else 0. Written so that the vectoriser sees plain selects.
+// The one of smaller magnitude if both have the same sign, else 0: the middle one of 0, a and b. Where two slopes are
+// limited by the same difference b, half of the work is shared.
 [[gnu::always_inline]] inline double minmod(double a, double b) {
-    const double smaller = std::min(std::fabs(a), std::fabs(b));
-    return a * b > 0 ? std::copysign(smaller, b) : 0.0;
+    return std::max(std::min(b, 0.0), std::min(std::max(b, 0.0), a));
 }
 
 }  // namespace aquagraph::fluid

@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "physics/fluid/kernel.hpp"
+#include "physics/fluid/neighbour_search.hpp"
 #include "physics/fluid/pair_loop.hpp"
+#include "physics/fluid/spatial_order.hpp"
 #include "physics/geometry/facet_tree.hpp"
 #include "physics/geometry/inside.hpp"
 

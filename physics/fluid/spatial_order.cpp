@@ -1,13 +1,19 @@
+#include "physics/fluid/spatial_order.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "physics/fluid/neighbour_lists.hpp"
-
 namespace aquagraph::fluid {
 
+namespace {
+constexpr std::size_t particles_per_part = 4096;
+constexpr std::size_t columns_per_part = 16;
+}  // namespace
+
 template <int D>
-std::span<const std::uint32_t> SpatialOrder<D>::sort(const Vectors<D>& x, std::size_t n, double spacing) {
+std::span<const std::uint32_t> SpatialOrder<D>::sort(const Vectors<D>& x, std::size_t n, double spacing,
+                                                     BlockLoop loop) {
     // Columns of cross-section sqrt(W) Δx (2D) or (2Δx)² (3D) hold clusters that are about as long as wide.
     double width = D == 2 ? std::sqrt(double(W)) * spacing : 2 * spacing;
     double low[D], high[D];
@@ -33,56 +39,88 @@ std::span<const std::uint32_t> SpatialOrder<D>::sort(const Vectors<D>& x, std::s
         columns *= columns_along[d];
     }
     column_of_.resize(n);
+    places_.resize(n);
     column_start_.assign(columns + 1, 0);
     order_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        std::size_t column = 0;
-        for (int d = 0; d + 1 < D; ++d) {
-            auto c = std::min(std::size_t((x[d][i] - low[d]) / width), columns_along[d] - 1);
-            if (d == 1 && column % 2 == 1) c = columns_along[d] - 1 - c;  // neighbouring columns follow each other
-            column = column * columns_along[d] + c;
+    loop((n + particles_per_part - 1) / particles_per_part, [&](std::size_t part) {
+        const std::size_t end = std::min(n, (part + 1) * particles_per_part);
+        for (std::size_t i = part * particles_per_part; i < end; ++i) {
+            std::size_t column = 0;
+            for (int d = 0; d + 1 < D; ++d) {
+                auto c = std::min(std::size_t((x[d][i] - low[d]) / width), columns_along[d] - 1);
+                if (d == 1 && column % 2 == 1) c = columns_along[d] - 1 - c;  // neighbouring columns follow each other
+                column = column * columns_along[d] + c;
+            }
+            column_of_[i] = std::uint32_t(column);
         }
-        column_of_[i] = std::uint32_t(column);
-        ++column_start_[column + 1];
-    }
+    });
+    for (std::size_t i = 0; i < n; ++i) ++column_start_[column_of_[i] + 1];
     for (std::size_t c = 0; c < columns; ++c) column_start_[c + 1] += column_start_[c];
-    for (std::size_t i = n; i-- > 0;) order_[--column_start_[column_of_[i] + 1]] = std::uint32_t(i);
-    // After the loop above column_start_[c + 1] is where column c begins.
-    const auto& height = x[D - 1];
-    for (std::size_t c = 0; c < columns; ++c) {
-        const auto begin = order_.begin() + column_start_[c + 1];
-        const auto end = c + 2 <= columns ? order_.begin() + column_start_[c + 2] : order_.end();
-        // Ties are broken by the index, so that the order is the same everywhere.
-        if (c % 2 == 0)
-            std::sort(begin, end,
-                      [&](auto a, auto b) { return height[a] < height[b] || (height[a] == height[b] && a < b); });
-        else
-            std::sort(begin, end,
-                      [&](auto a, auto b) { return height[a] > height[b] || (height[a] == height[b] && a < b); });
+    // Every second column runs backwards: its heights are taken negative.
+    const double* const height = x[D - 1].data();
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::uint32_t column = column_of_[i];
+        places_[column_start_[column]++] = {column % 2 == 0 ? height[i] : -height[i], std::uint32_t(i)};
     }
+    for (std::size_t c = columns; c > 0; --c) column_start_[c] = column_start_[c - 1];
+    column_start_[0] = 0;
+    loop((columns + columns_per_part - 1) / columns_per_part, [&](std::size_t part) {
+        const std::size_t end = std::min(columns, (part + 1) * columns_per_part);
+        for (std::size_t c = part * columns_per_part; c < end; ++c) {
+            // Ties are broken by the index, so that the order is the same everywhere.
+            std::sort(places_.begin() + column_start_[c], places_.begin() + column_start_[c + 1],
+                      [](const Place& a, const Place& b) {
+                          return a.height < b.height || (a.height == b.height && a.particle < b.particle);
+                      });
+            for (std::uint32_t k = column_start_[c]; k < column_start_[c + 1]; ++k) order_[k] = places_[k].particle;
+        }
+    });
     return order_;
 }
 
 template <int D>
-void Reorder<D>::apply(Particles<D>& particles, std::span<const std::uint32_t> order) {
+void Reorder<D>::apply(Particles<D>& particles, std::span<const std::uint32_t> order, BlockLoop loop) {
     const std::size_t n = order.size();
-    const auto permute = [&](auto& values, auto& buffer) {
-        buffer.resize(n);
-        for (std::size_t k = 0; k < n; ++k) buffer[k] = values[order[k]];
-        std::copy(buffer.begin(), buffer.end(), values.begin());
-    };
-    permute(particles.id, id_buffer_);
-    permute(particles.mass, buffer_);
-    permute(particles.deviation, buffer_);
-    permute(particles.deviation_rate, buffer_);
-    permute(particles.fullness, buffer_);
-    if (particles.has_mass_exchange) permute(particles.mass_rate, buffer_);
+    fields_.clear();
+    const auto carry = [&](Scalars& field) { fields_.push_back(&field); };
+    carry(particles.mass);
+    carry(particles.deviation);
+    carry(particles.deviation_rate);
+    carry(particles.fullness);
+    if (particles.has_mass_exchange) carry(particles.mass_rate);
     for (int d = 0; d < D; ++d) {
-        permute(particles.x[d], buffer_);
-        permute(particles.v[d], buffer_);
-        permute(particles.acceleration[d], buffer_);
-        if (!particles.shift[d].empty()) permute(particles.shift[d], buffer_);
+        carry(particles.x[d]);
+        carry(particles.v[d]);
+        carry(particles.acceleration[d]);
+        if (!particles.shift[d].empty()) carry(particles.shift[d]);
     }
+    buffers_.resize(fields_.size());
+    const auto fit = [n](auto& buffer) {
+        if (n > buffer.capacity()) buffer.reserve(n + n / 4 + 16 * W);
+        buffer.resize(n);
+    };
+    for (auto& buffer : buffers_) fit(buffer);
+    fit(id_buffer_);
+    // Out of place, then back: a block reads what others will have written over.
+    const std::size_t parts = (n + particles_per_part - 1) / particles_per_part;
+    const auto range = [n](std::size_t part) {
+        return LaneRange{part * particles_per_part, std::min(n, (part + 1) * particles_per_part)};
+    };
+    loop(parts, [&](std::size_t part) {
+        const LaneRange r = range(part);
+        for (std::size_t f = 0; f < fields_.size(); ++f)
+            for (std::size_t k = r.begin; k < r.end; ++k) buffers_[f][k] = (*fields_[f])[order[k]];
+        for (std::size_t k = r.begin; k < r.end; ++k) id_buffer_[k] = particles.id[order[k]];
+    });
+    loop(parts, [&](std::size_t part) {
+        const LaneRange r = range(part);
+        const auto back = [&](const auto& from, auto& to) {
+            std::copy(from.begin() + std::ptrdiff_t(r.begin), from.begin() + std::ptrdiff_t(r.end),
+                      to.begin() + std::ptrdiff_t(r.begin));
+        };
+        for (std::size_t f = 0; f < fields_.size(); ++f) back(buffers_[f], *fields_[f]);
+        back(id_buffer_, particles.id);
+    });
 }
 
 template class SpatialOrder<2>;

@@ -12,6 +12,7 @@
 #include "physics/fluid/rebuild.hpp"
 #include "physics/fluid/shifting.hpp"
 #include "physics/fluid/time_step.hpp"
+#include "physics/fluid/travel.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/x_sph.hpp"
 
@@ -117,7 +118,10 @@ class Driver {
     }
 
     void step(double dt, BlockLoop loop = serial_loop) {
-        if (!lists_hold(dt)) rebuild(loop);
+        const Travel travel = most_travelled();
+        const double wall_travel = dt * walls_speed();
+        if (!lists_hold(travel.so_far() + travel.of_step(dt) + wall_travel)) rebuild(loop);
+        prune(fluid.particles, fluid.lists, skin_of_step(travel, dt, wall_travel, fluid.lists.radius), loop);
         if (fluid.integration.predicts())
             loop(fluid.blocks(), [&](std::size_t block) {
                 predict(fluid.particles, fluid.integration, fluid.tait, dt, fluid.lanes(block));
@@ -148,25 +152,27 @@ class Driver {
     Vec<D> gravity() const { return Vec<D>(fluid.flux.gravity); }
 
   private:
-    bool lists_hold(double dt) const {
-        if (fluid.rebuilds == 0) return false;
-        const auto& s = fluid.particles;
-        double displacement2 = 0, speed2 = 0;
+    Travel most_travelled() const {
+        Travel most;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
-            displacement2 = std::max(displacement2, largest_displacement_squared(s, block));
-        for (std::size_t i = 0; i < s.count; ++i) {
-            double v2 = 0;
-            for (int d = 0; d < D; ++d) v2 += s.v[d][i] * s.v[d][i];
-            speed2 = std::max(speed2, v2);
-        }
-        double moved = std::sqrt(displacement2) + dt * std::sqrt(speed2);
+            most = largest(most, travel(fluid.particles, fluid.lanes(block)));
+        return most;
+    }
+
+    double walls_speed() const {
+        double speed2 = 0;
+        if (walls)
+            for (const Vec<D>& v : walls->panels.velocity) speed2 = std::max(speed2, v.squaredNorm());
+        return std::sqrt(speed2);
+    }
+
+    bool lists_hold(double moved) const {
+        if (fluid.rebuilds == 0) return false;
         if (walls) {
-            double wall2 = 0, wall_speed2 = 0;
-            for (std::size_t k = 0; k < built_.size(); ++k) {
+            double wall2 = 0;
+            for (std::size_t k = 0; k < built_.size(); ++k)
                 wall2 = std::max(wall2, (walls->panels.position[k] - built_[k]).squaredNorm());
-                wall_speed2 = std::max(wall_speed2, walls->panels.velocity[k].squaredNorm());
-            }
-            moved += std::sqrt(wall2) + dt * std::sqrt(wall_speed2);
+            moved += std::sqrt(wall2);
         }
         return moved < 0.5 * fluid.lists.skin;
     }

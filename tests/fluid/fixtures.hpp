@@ -96,11 +96,13 @@ void disorder(Particles<D>& s, double spacing, Random& random) {
 
 template <int D>
 NeighbourLists<D> lists_of(const Particles<D>& s, double radius, double skin, BlockLoop loop = serial_loop,
-                           const PairFilter<D>* filter = nullptr) {
+                           const PairFilter<D>* filter = nullptr, SearchMethod method = SearchMethod::cell_grid) {
     NeighbourLists<D> lists;
     lists.radius = radius;
     lists.skin = skin;
-    NeighbourSearch<D>().build(s, lists, filter, loop);
+    NeighbourSearch<D> search;
+    search.method = method;
+    search.build(s, lists, filter, loop);
     return lists;
 }
 

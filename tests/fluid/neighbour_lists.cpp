@@ -1,5 +1,5 @@
 // Neighbour lists hold exactly the pairs that a double loop and a k-d tree find, whatever the particles look like.
-#include "physics/fluid/neighbour_lists.hpp"
+#include "physics/fluid/neighbour_search.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +8,7 @@
 #include <nanoflann.hpp>
 #include <set>
 
+#include "physics/fluid/travel.hpp"
 #include "tests/fluid/fixtures.hpp"
 #include "tests/solid/fixtures.hpp"
 
@@ -26,7 +27,7 @@ Neighbours visited(const Particles<D>& s, const NeighbourLists<D>& lists, double
     Neighbours found(s.count);
     for (std::size_t i = 0; i < s.count; ++i) {
         const std::size_t block = i / (clusters_per_block * W);
-        const NeighbourBlock& list = lists.blocks[block];
+        const NeighbourBlock& list = lists.visited(block);
         const std::size_t local = i - block * clusters_per_block * W;
         const auto from = list.particle[local], to = list.particle[local + 1];
         const auto visit = [&](std::uint32_t cluster, unsigned mask) {
@@ -89,6 +90,20 @@ std::uint64_t number_of_pairs(const Neighbours& neighbours) {
     return sum;
 }
 
+// The same entries in the same order.
+template <int D>
+bool same(const NeighbourLists<D>& one, const NeighbourLists<D>& other) {
+    if (one.blocks.size() != other.blocks.size()) return false;
+    for (std::size_t b = 0; b < one.blocks.size(); ++b) {
+        const NeighbourBlock &p = one.blocks[b], &q = other.blocks[b];
+        const bool ends =
+            std::equal(p.particle.begin(), p.particle.end(), q.particle.begin(), q.particle.end(),
+                       [](auto a, auto c) { return a.open_end == c.open_end && a.masked_end == c.masked_end; });
+        if (!ends || p.open != q.open || p.masked != q.masked || p.mask != q.mask || p.pairs != q.pairs) return false;
+    }
+    return true;
+}
+
 template <int D>
 void check_lists(const Particles<D>& s, double radius, double skin) {
     const auto lists = lists_of<D>(s, radius, skin);
@@ -98,6 +113,7 @@ void check_lists(const Particles<D>& s, double radius, double skin) {
     CHECK(by_tree(s, radius) == expected);
     CHECK(lists.pairs() == number_of_pairs(expected));
     CHECK(visited(s, lists, lists.reach()) == by_double_loop(s, lists.reach()));
+    CHECK(same(lists, lists_of<D>(s, radius, skin, serial_loop, nullptr, SearchMethod::tree)));
 }
 
 template <int D>
@@ -162,10 +178,9 @@ void check_after_moves() {
         }
         for (std::size_t d = 0; d < D; ++d) s.x[d][i] += 0.4999 * skin * move[d] / std::sqrt(length2);
     }
-    double moved2 = 0;
-    for (std::size_t block = 0; block < s.blocks(); ++block)
-        moved2 = std::max(moved2, largest_displacement_squared(s, block));
-    CHECK(std::sqrt(moved2) == doctest::Approx(0.4999 * skin).epsilon(1e-10));
+    Travel most;
+    for (std::size_t block = 0; block < s.blocks(); ++block) most = largest(most, travel(s, lanes_of_block(s, block)));
+    CHECK(most.so_far() == doctest::Approx(0.4999 * skin).epsilon(1e-10));
     CHECK(visited(s, lists, radius) == by_double_loop(s, radius));
 }
 
@@ -178,17 +193,38 @@ void check_threads() {
     for (const unsigned threads : {2u, 4u}) {
         const ThreadedLoop loop{threads};
         const auto threaded = lists_of<D>(s, 0.2, 0.05, loop);
-        REQUIRE(threaded.blocks.size() == serial.blocks.size());
-        for (std::size_t b = 0; b < serial.blocks.size(); ++b) {
-            const NeighbourBlock &one = serial.blocks[b], &other = threaded.blocks[b];
-            CHECK(one.open == other.open);
-            CHECK(one.masked == other.masked);
-            CHECK(one.mask == other.mask);
-            CHECK(one.pairs == other.pairs);
-            CHECK(std::equal(one.particle.begin(), one.particle.end(), other.particle.begin(), other.particle.end(),
-                             [](auto p, auto q) { return p.open_end == q.open_end && p.masked_end == q.masked_end; }));
-        }
+        CHECK(same(threaded, serial));
     }
+}
+
+// A pruned list visits all that lie within R until something has moved half of its skin, and walks fewer entries.
+template <int D>
+void check_pruning(const PairFilter<D>* filter, const Particles<D>& placed, Random& random) {
+    CAPTURE(D);
+    Particles<D> s = placed;
+    const double radius = 0.25, skin = 0.06, inner_skin = 0.02;
+    auto lists = lists_of<D>(s, radius, skin, serial_loop, filter);
+    const Neighbours before = visited(s, lists, radius + inner_skin);
+    std::size_t entries = 0, left = 0;
+    prune(s, lists, inner_skin, serial_loop);
+    REQUIRE(lists.pruned);
+    CHECK(visited(s, lists, radius + inner_skin) == before);
+    for (std::size_t b = 0; b < lists.blocks.size(); ++b) {
+        entries += lists.blocks[b].open.size() + lists.blocks[b].masked.size();
+        left += lists.inner[b].particle.back().open_end + lists.inner[b].particle.back().masked_end;
+    }
+    CHECK(left < (D == 2 ? 0.92 : 0.85) * static_cast<double>(entries));
+    auto threaded = lists_of<D>(s, radius, skin, serial_loop, filter);
+    prune(s, threaded, inner_skin, ThreadedLoop{3});
+    CHECK(visited(s, threaded, 1e9) == visited(s, lists, 1e9));
+
+    for (std::size_t i = 0; i < s.count; ++i)
+        for (std::size_t d = 0; d < D; ++d) s.x[d][i] += 0.49 * inner_skin / std::sqrt(double(D)) * random();
+    const auto pruned = visited(s, lists, radius);
+    lists.pruned = false;
+    CHECK(pruned == visited(s, lists, radius));
+    prune(s, lists, skin, serial_loop);  // nothing to be gained
+    CHECK(!lists.pruned);
 }
 
 // Hides every pair whose numbers add up to a multiple of three.
@@ -223,6 +259,27 @@ TEST_CASE("lists stay complete while nothing moves further than half the skin") 
 TEST_CASE("lists are the same bits on several threads") {
     check_threads<2>();
     check_threads<3>();
+}
+
+TEST_CASE("pruned lists visit every pair of the coming step") {
+    Random random;
+    const Particles<2> plane = place<2>(random_cloud<2>(1300, 1, random), 0.05, random_cloud<2>(100, 1, random));
+    const EveryThird filter(plane);
+    check_pruning<2>(nullptr, plane, random);
+    check_pruning<2>(&filter, plane, random);
+    check_pruning<3>(nullptr, place<3>(random_cloud<3>(1300, 1, random), 0.1), random);
+}
+
+TEST_CASE("the skin of a step covers what particles and walls move in it") {
+    Random random;
+    Particles<2> s = place<2>(random_cloud<2>(100, 1, random), 0.1);
+    CHECK(skin_of_step(travel(s, lanes_of_block(s, 0)), 0.1, 0, 1) == std::numeric_limits<double>::infinity());
+    s.v[0][17] = 3;
+    s.acceleration[1][50] = -2;
+    const Travel most = travel(s, lanes_of_block(s, 0));
+    CHECK(most.of_step(0.1) == doctest::Approx(0.32));
+    CHECK(skin_of_step(most, 0.1, 0.05, 1) >= 2 * (0.32 + 0.05));
+    CHECK(skin_of_step(most, 1e-9, 0, 1) == 0.02);
 }
 
 TEST_CASE("a filter hides lanes, and only those it names") {

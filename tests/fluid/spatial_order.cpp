@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "physics/fluid/neighbour_lists.hpp"
+#include "physics/fluid/spatial_order.hpp"
 #include "tests/fluid/fixtures.hpp"
 
 using namespace aquagraph::fluid;

@@ -15,6 +15,7 @@
 #pragma once
 #include <array>
 
+#include "physics/fluid/spatial_order.hpp"
 #include "physics/fluid/walls/visibility.hpp"
 
 namespace aquagraph::fluid {

@@ -11,7 +11,7 @@
 //
 // Particles that have slid behind a panel by less than half a spacing are treated as being just in front of it.
 #pragma once
-#include "physics/fluid/neighbour_lists.hpp"
+#include "physics/fluid/neighbour_search.hpp"
 #include "physics/fluid/walls/panel_grid.hpp"
 
 namespace aquagraph::fluid {
