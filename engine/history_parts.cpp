@@ -1,8 +1,10 @@
 #include "engine/history_parts.hpp"
 
 #include <cmath>
+#include <memory>
 #include <string>
 
+#include "engine/field_columns.hpp"
 #include "engine/solid_parts.hpp"
 
 namespace aquagraph::engine {
@@ -37,10 +39,13 @@ HistoryPart interface_force(const io::Scene& scene, const coupling::Interface& i
 }
 
 template <int D>
-HistoryPart fluid_energies(const fluid::Fluid<D>& fluid) {
+HistoryPart fluid_energies(const Model<D>& model) {
     return {{{"fluid_kinetic_energy", per_depth<D>("J")}, {"fluid_potential_energy", per_depth<D>("J")}},
-            [&fluid](std::vector<double>& row) {
-                const fluid::FluidEnergies sum = total_energies(fluid);
+            [&model](std::vector<double>& row) {
+                const fluid::Fluid<D>& fluid = *model.fluid;
+                fluid::FluidEnergies sum = total_energies(fluid);
+                for (std::size_t block = 0; model.central_force && block < fluid.blocks(); ++block)
+                    sum.potential += potential_energy(fluid.particles, *model.central_force, fluid.lanes(block));
                 row.insert(row.end(), {sum.kinetic, sum.potential});
             }};
 }
@@ -90,6 +95,15 @@ HistoryPart particle_figures(const fluid::Fluid<D>& fluid) {
             }};
 }
 
+// Columns that the scene asks for by formula.
+template <int D>
+HistoryPart fields(const io::Scene& scene, const Model<D>& model) {
+    auto columns = std::make_shared<FieldColumns>(scene);
+    return {columns->columns(), [&model, columns](std::vector<double>& row) {
+                columns->append(model.fluid->particles, model.fluid->tait, model.clock.time, row);
+            }};
+}
+
 }  // namespace
 
 template <int D>
@@ -100,10 +114,11 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
                      }});
     if (model.solid) parts.push_back(tracks(scene, *model.solid));
     if (model.interface) parts.push_back(interface_force(scene, *model.interface));
-    if (model.fluid) parts.push_back(fluid_energies(*model.fluid));
+    if (model.fluid) parts.push_back(fluid_energies(model));
     if (model.fluid && model.fluid->ledger.kept) parts.push_back(energy_balance(*model.fluid));
     if (model.solid) parts.push_back(solid_energies(*model.solid));
     if (model.fluid) parts.push_back(particle_figures(*model.fluid));
+    if (model.fluid && !FieldColumns(scene).columns().empty()) parts.push_back(fields(scene, model));
     return parts;
 }
 

@@ -17,6 +17,7 @@
 //   exchange
 #include "engine/listings.hpp"
 
+#include "tasks/body_force.hpp"
 #include "tasks/fluid_pass.hpp"
 #include "tasks/neighbours.hpp"
 #include "tasks/solid_step.hpp"
@@ -78,6 +79,8 @@ class Listing {
         if (model_.walls) add(tasks::ghost_gradients(fluid, *model_.walls, name));
         if (first) transport(name);
         add(tasks::fluxes(fluid, name));
+        if (model_.central_force) add(tasks::central_force(fluid, *model_.central_force, name));
+        if (model_.driving_force) add(tasks::driving_force<D>(fluid, *model_.driving_force, name));
         if (fluid.viscosity.dynamic > 0) add(tasks::viscosity(fluid, name));
     }
 

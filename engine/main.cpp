@@ -5,6 +5,7 @@
 #include "engine/check.hpp"
 #include "engine/graph_command.hpp"
 #include "engine/run.hpp"
+#include "engine/study.hpp"
 #include "engine/version.hpp"
 #include "io/scene_reader.hpp"
 
@@ -15,9 +16,12 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
 
     std::filesystem::path scene_file;
+    std::vector<std::string> overrides;
+    const std::string set_help = "KEY=VALUE in place of the scene's, such as fluid.spacing=0.01; may be repeated";
     engine::RunOptions options;
     auto* run = app.add_subcommand("run", "Compute a scene");
     run->add_option("scene", scene_file, "Scene file (TOML)")->required();
+    run->add_option("--set", overrides, set_help)->take_all()->allow_extra_args(false);
     run->add_option("--out", options.folder, "Folder of results (default: results/<scene name>)");
     run->add_option("--threads", options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
     run->add_option("--trace", options.trace, "Write when every task ran on which thread (Chrome trace JSON)");
@@ -26,6 +30,7 @@ int main(int argc, char** argv) {
     int check_threads = 0;
     auto* check = app.add_subcommand("check", "Say what a scene models and what it will cost, without running it");
     check->add_option("scene", scene_file, "Scene file (TOML)")->required();
+    check->add_option("--set", overrides, set_help)->take_all()->allow_extra_args(false);
     check->add_option("--threads", check_threads, "Threads to estimate for (default: all cores)")
         ->check(CLI::Range(1, 1024));
 
@@ -34,6 +39,24 @@ int main(int argc, char** argv) {
     graph->add_option("scene", scene_file, "Scene file (TOML)")->required();
     graph->add_option("--out", drawing, "File for the DOT text (default: <scene name>.dot)");
 
+    std::filesystem::path study_file;
+    engine::StudyOptions study_options;
+    auto* study = app.add_subcommand("study", "Run a matrix of scenes, resolutions and variants: what an error costs");
+    study->add_option("study", study_file, "Study file (TOML)")->required();
+    study->add_option("--only", study_options.only, "Runs with this in CASE/VARIANT; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false);
+    study->add_flag("--coarse", study_options.coarse, "The coarse resolutions only");
+    study->add_flag("--list", study_options.list, "Say what would be run");
+    study->add_flag("--fresh", study_options.fresh, "Run again what an earlier start has finished");
+    study->add_option("--repeats", study_options.repeats, "Runs of everything (default: the study's)")
+        ->check(CLI::Range(1, 100));
+    study->add_option("--out", study_options.out,
+                      "File for the tables (default: RESULTS.md beside the study; with --only and --coarse they are "
+                      "printed)");
+    study->add_option("--results", study_options.folder, "Folder of the runs (default: results/study_<name>)");
+    study->add_option("--threads", study_options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -41,7 +64,8 @@ int main(int argc, char** argv) {
         return code == 0 ? engine::success : engine::bad_input;
     }
     try {
-        const io::Scene scene = io::read_scene(scene_file);
+        if (study->parsed()) return engine::study(io::read_study(study_file), study_options, std::cout, std::cerr);
+        const io::Scene scene = io::read_scene(scene_file, overrides);
         if (check->parsed()) {
             engine::check(scene, check_threads, std::cout);
             return engine::success;

@@ -1,5 +1,6 @@
 #include "engine/model.hpp"
 
+#include "engine/initial_fields.hpp"
 #include "engine/solid_parts.hpp"
 #include "engine/wall_parts.hpp"
 #include "io/scene_reader.hpp"
@@ -55,6 +56,9 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     model->clock.end = scene.end_time;
     model->fluid = make_fluid<D>(scene);
     model->water = fill_with_water<D>(scene, model->fluid->tait, model->fluid->particles);
+    set_initial_fields(*model->fluid, scene);
+    if (const auto& force = scene.fluid->central_force) model->central_force = {force->centre.as<D>(), force->rate};
+    if (scene.fluid->driving_force) model->driving_force = scene.fluid->driving_force->as<D>();
     if (!scene.walls.empty() || scene.solid) {
         add_walls(scene, model->walls.emplace().panels);
         model->moving = moving_walls(scene, model->walls->panels);

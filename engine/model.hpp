@@ -8,6 +8,7 @@
 #include "io/scene.hpp"
 #include "physics/clock.hpp"
 #include "physics/coupling/interface.hpp"
+#include "physics/fluid/body_forces.hpp"
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/walls/motion.hpp"
@@ -20,6 +21,8 @@ template <int D>
 struct Model {
     std::optional<fluid::Fluid<D>> fluid;
     std::vector<FilledBody> water;  // how it was filled
+    std::optional<fluid::CentralForce<D>> central_force;
+    std::optional<std::array<double, D>> driving_force;  // [m/s²]
     std::optional<fluid::GhostWalls<D>> walls;
     fluid::MovingWalls<D> moving;  // those with a prescribed motion
     std::optional<solid::Solver> solid;

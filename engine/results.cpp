@@ -1,11 +1,14 @@
 #include "engine/results.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <system_error>
 
+#include "engine/field_columns.hpp"
 #include "engine/frames.hpp"
 #include "engine/wall_parts.hpp"
+#include "io/scene_formulas.hpp"
 #include "io/scene_reader.hpp"
 #include "io/summary.hpp"
 #include "tasks/resources.hpp"
@@ -14,7 +17,7 @@ namespace aquagraph::engine {
 
 namespace {
 
-// Throws io::SceneError for a comparison with a column that will not be there.
+// Throws io::SceneError for a comparison with a column that will not be there, and for two of one name.
 std::vector<io::HistoryColumn> columns_of(const io::Scene& scene, const std::vector<HistoryPart>& parts,
                                           const std::vector<Diagnostic>& diagnostics) {
     std::vector<io::HistoryColumn> columns;
@@ -24,7 +27,12 @@ std::vector<io::HistoryColumn> columns_of(const io::Scene& scene, const std::vec
     for (const HistoryPart& part : parts) append(part);
     for (const Diagnostic& diagnostic : diagnostics) append(diagnostic.part);
     std::vector<std::string> names;
-    for (const io::HistoryColumn& column : columns) names.push_back(column.name);
+    for (const io::HistoryColumn& column : columns) {
+        if (std::find(names.begin(), names.end(), column.name) != names.end())
+            throw io::scene_error(scene, FieldColumns(scene).key_of(column.name),
+                                  "history.csv has a column \"" + column.name + "\" already", "choose another name");
+        names.push_back(column.name);
+    }
     io::check_compared_columns(scene, names);
     return columns;
 }
@@ -198,7 +206,7 @@ std::vector<io::Comparison> Results<D>::finish(const RunEnd& end) {
     std::vector<io::Comparison> comparisons;
     nlohmann::json errors = nlohmann::json::array();
     for (const io::Compare& compare : scene_.comparisons) {
-        comparisons.push_back(io::compare_with(compare, history));
+        comparisons.push_back(io::compare_with(compare, history, io::all_constants(scene_)));
         if (compare.error) errors.push_back(io::to_json(comparisons.back()));
     }
     nlohmann::json summary = summary_of(scene_, model_, end);

@@ -28,7 +28,7 @@ nlohmann::json summary_of(const io::Scene& scene, const Model<D>& model, const R
     nlohmann::json summary;
     summary["version"] = version;
     summary["scene"] = io::to_json(scene);  // as resolved
-    summary["scene_file"] = {{"name", scene.file.filename().string()}, {"text", scene.text}};
+    summary["scene_file"] = {{"name", scene.file.filename().string()}, {"text", scene.text}, {"set", scene.overrides}};
     summary["outcome"] = name_of(end.outcome);
     if (!end.message.empty()) summary["message"] = end.message;
     summary["time_s"] = model.clock.time;

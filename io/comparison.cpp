@@ -61,17 +61,31 @@ Curve read_reference(const Compare& compare) {
     return curve;
 }
 
-Comparison compare_with(const Compare& compare, const History& history) {
+Curve sampled_formula(const Compare& compare, const Constants& constants, std::size_t points) {
+    const Expression expression(compare.formula, {"t"}, constants);
+    Curve curve;
+    for (std::size_t i = 0; i < points; ++i) {
+        const double part = double(i) / double(points - 1);
+        const double t = (1 - part) * compare.window[0] + part * compare.window[1];
+        curve.time.push_back(t);
+        curve.value.push_back(compare.value_scale * expression(std::array{t}) + compare.value_offset);
+    }
+    return curve;
+}
+
+Comparison compare_with(const Compare& compare, const History& history, const Constants& constants) {
     Comparison result;
     result.column = compare.column;
     result.label = compare.label;
     result.file = compare.file;
+    result.formula = compare.formula;
     result.error = compare.error;
     result.window = compare.window;
-    result.reference = read_reference(compare);
+    result.reference = compare.formula.empty() ? read_reference(compare) : sampled_formula(compare, constants);
     const std::span<const double> computed = history.column(compare.column), time = history.time();
     result.unit = history.columns[*history.find(compare.column)].unit;
 
+    const double start = compare.change && !computed.empty() ? computed.front() : 0;
     double squares = 0, sum = 0;
     for (std::size_t i = 0; i < result.reference.time.size(); ++i) {
         const double t = result.reference.time[i], expected = result.reference.value[i];
@@ -79,7 +93,7 @@ Comparison compare_with(const Compare& compare, const History& history) {
         ++result.points_in_window;
         result.peak = std::max(result.peak, std::abs(expected));
         if (time.empty() || t < time.front() || t > time.back()) continue;
-        const double difference = interpolated(time, computed, t) - expected;
+        const double difference = interpolated(time, computed, t) - start - expected;
         ++result.points;
         squares += difference * difference;
         sum += difference;
@@ -96,7 +110,8 @@ Comparison compare_with(const Compare& compare, const History& history) {
     }
     result.rms = std::sqrt(squares / static_cast<double>(result.points));
     result.mean = sum / static_cast<double>(result.points);
-    result.normalised = result.peak > 0 ? result.rms / result.peak : 0;
+    const double scale = compare.scale.value_or(result.peak);
+    result.normalised = scale > 0 ? result.rms / scale : 0;
     return result;
 }
 

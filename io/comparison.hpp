@@ -20,9 +20,13 @@ struct Curve {
 // the file cannot be read and std::runtime_error where it holds no point.
 Curve read_reference(const Compare& compare);
 
+// `compare.formula` at `points` evenly spaced times of the window.
+Curve sampled_formula(const Compare& compare, const Constants& constants, std::size_t points = 1001);
+
 struct Comparison {
     std::string column, unit, label;
-    std::filesystem::path file;
+    std::filesystem::path file;        // empty where the reference is a formula …
+    std::string formula;               // … this one
     bool error = true;                 // false: drawn only
     std::array<double, 2> window{};    // [s]
     Curve reference;                   // the whole of it
@@ -30,14 +34,14 @@ struct Comparison {
     std::size_t points_in_window = 0;  // more than `points` where the run ended before the window
     double rms = 0;                    // root mean square of computed - reference [unit]
     double peak = 0;                   // largest |reference| in the window [unit]
-    double normalised = 0;             // rms / peak; 0 where peak is 0
+    double normalised = 0;             // rms / the scale of `compare`, or / peak; 0 where that is 0
     double mean = 0;                   // mean of computed - reference: the bias [unit]
     double largest = 0;                // largest |computed - reference| [unit]
     double largest_time = 0;           // where that is [s]
 };
 
 // The computed column, interpolated linearly at the times of the reference. With no point to compare all errors are
-// NaN. Throws std::out_of_range where the history has no such column.
-Comparison compare_with(const Compare& compare, const History& history);
+// NaN. Throws std::out_of_range where the history has no such column. constants: for formulas, all_constants(scene).
+Comparison compare_with(const Compare& compare, const History& history, const Constants& constants = {});
 
 }  // namespace aquagraph::io

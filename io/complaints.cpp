@@ -40,6 +40,8 @@ std::string written(const std::filesystem::path& file, std::string_view text, co
         return fmt::format("{}: error: {}\nhelp: {}", file.string(), complaint.message, complaint.help);
     const auto [line, column] = complaint.position;
     const std::string_view source = line_of(text, line);
+    if (source.starts_with(override_mark))
+        return fmt::format("{}: error: {}\nhelp: {}", source.substr(2), complaint.message, complaint.help);
     return fmt::format("{}:{}:{}: error: {}\n    {}\n    {}\nhelp: {}", file.string(), line, column, complaint.message,
                        source, caret(source, column), complaint.help);
 }

@@ -48,13 +48,13 @@ nlohmann::json line(std::span<const double> time, std::span<const double> value)
 nlohmann::json compared_plot(const History& history, const std::string& column,
                              const std::vector<Comparison>& comparisons) {
     nlohmann::json series = nlohmann::json::array(), windows = nlohmann::json::array();
-    std::set<std::filesystem::path> drawn;
+    std::set<std::string> drawn;
     std::string unit;
     for (const Comparison& c : comparisons) {
         if (c.column != column) continue;
         unit = c.unit;
         // A curve that is compared over several windows is drawn once.
-        if (drawn.insert(c.file).second)
+        if (drawn.insert(c.formula.empty() ? c.file.string() : c.formula).second)
             series.push_back({{"label", c.label},
                               {"kind", c.error ? "measured" : "drawn"},
                               {"points", line(c.reference.time, c.reference.value)}});

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "physics/fluid/choices.hpp"
-
+#include "io/expression.hpp"
 #include "io/point.hpp"
 #include "io/scene_geometry.hpp"
+#include "physics/fluid/choices.hpp"
 
 namespace aquagraph::io {
 
@@ -30,6 +30,18 @@ struct FluidScheme {
     fluid::RiemannSolver riemann_solver = fluid::RiemannSolver::acoustic;
     double delta = 0.1;   // δ of δ-SPH
     double alpha = 0.01;  // α of δ-SPH and artificial viscosity
+};
+
+// Formulas of position, x y z and the constants; empty where a field is not given.
+struct InitialFields {
+    std::vector<std::string> velocity;  // [m/s], one per direction
+    std::string pressure;               // [Pa]
+};
+
+// a = -rate² (x - centre): what holds an oscillating drop together.
+struct CentralForce {
+    Point centre{};
+    double rate = 0;  // [1/s]
 };
 
 struct FluidScene {
@@ -52,6 +64,9 @@ struct FluidScene {
     std::vector<RegionScene> regions;     // polygons, discs, balls, closed STL volumes
     bool relax = false;                   // regions, to a regular distribution before t = 0
     double relax_tolerance = 2e-3;        // of the standard deviation of the kernel sum
+    InitialFields initial;                // instead of rest and of initial_pressure
+    std::optional<CentralForce> central_force;
+    std::optional<Point> driving_force;  // [m/s²], beside gravity; no pressure answers it
 };
 
 // Exactly one shape. points: in 2D a polyline with the fluid on the left of the direction of travel; in 3D the corners
@@ -129,10 +144,36 @@ struct OutputScene {
     bool energy_ledger = false;   // where the fluid's energy goes, and whether the balance closes
 };
 
+// Columns of history.csv that sum over particles. Formulas of x y z t vx vy vz p rho fullness and the constants.
+
+// Σ ω value; with a weight the mean Σ ω weight value / Σ ω weight.
+struct Integral {
+    std::string name, value, weight, unit;
+};
+
+// The largest or smallest value among the particles for which `where` is not zero.
+struct Extreme {
+    std::string name, value, where, unit;
+    bool largest = true;
+};
+
+// How far the fluid is from fields known as formulas of x y z t: the columns NAME_velocity_error and
+// NAME_pressure_error.
+struct FieldError {
+    std::string name;
+    std::vector<std::string> velocity;                     // [m/s]; empty: not compared
+    std::string pressure;                                  // [Pa]; empty: not compared
+    std::string where;                                     // only particles for which this is not zero; empty: all
+    std::optional<double> velocity_scale, pressure_scale;  // divide the errors; default: the L2 norm of the exact field
+};
+
 struct Compare {
-    std::string column;          // of history.csv, without the unit: "tip_x"
-    std::filesystem::path file;  // (absolute once read) two columns, comma, tab or blanks; lines of text are skipped
-    std::string label;           // for the report: "Antoci et al. 2007, experiment"
+    std::string column;           // of history.csv, without the unit: "tip_x"
+    std::filesystem::path file;   // (absolute once read) two columns, comma, tab or blanks; lines of text are skipped
+    std::string formula;          // of t, instead of a file
+    bool change = false;          // compares how far the column is from its first row
+    std::optional<double> scale;  // the error is divided by it; default: the reference's peak in the window
+    std::string label;            // for the report: "Antoci et al. 2007, experiment"
     std::array<double, 2> window{};  // [s]
     double time_scale = 1, value_scale = 1,
            value_offset = 0;  // t = time_scale * column 1; v = value_scale * column 2 + value_offset
@@ -143,7 +184,9 @@ struct Scene {
     std::filesystem::path file;  // absolute path of the scene file
     std::string name;            // folder of results: <folder>_<file stem> or just <folder> for scene.toml
     std::string title;
-    std::string text;                      // the file as read
+    std::string text;                      // the file as read, followed by a line "# --set KEY=VALUE" per override
+    std::vector<std::string> overrides;    // "fluid.spacing=0.01"
+    Constants constants;                   // of [constants]
     double end_time = 0;                   // [s]
     int dimension = 2;                     // of all points: that of domain.min
     Point gravity{0, -9.81};               // [m/s²]; in 3D {0, 0, -9.81}
@@ -155,6 +198,9 @@ struct Scene {
     std::vector<ProbeScene> probes;
     CouplingScene coupling;
     OutputScene output;
+    std::vector<Integral> integrals;
+    std::vector<Extreme> extremes;
+    std::vector<FieldError> field_errors;
     std::vector<Compare> comparisons;
     std::map<std::string, SourcePosition> positions;  // dotted key ("fluid.box[0].min", counted from 0) -> place
 };

@@ -140,6 +140,11 @@ Json to_json(const FluidScene& fluid, int dimension) {
         json["relax_tolerance"] = fluid.relax_tolerance;
     }
     json["surface_level"] = surface_level(fluid, dimension);
+    if (!fluid.initial.velocity.empty()) json["initial"]["velocity"] = fluid.initial.velocity;
+    if (!fluid.initial.pressure.empty()) json["initial"]["pressure"] = fluid.initial.pressure;
+    if (fluid.driving_force) json["driving_force"] = *fluid.driving_force;
+    if (fluid.central_force)
+        json["central_force"] = {{"centre", fluid.central_force->centre}, {"rate", fluid.central_force->rate}};
     return json;
 }
 
@@ -188,14 +193,28 @@ Json to_json(const ProbeScene& probe) {
 }
 
 Json to_json(const Compare& compare) {
-    return {{"column", compare.column},
-            {"file", compare.file.filename().string()},
-            {"label", compare.label},
-            {"window", compare.window},
-            {"time_scale", compare.time_scale},
-            {"value_scale", compare.value_scale},
-            {"value_offset", compare.value_offset},
-            {"error", compare.error}};
+    Json json = {{"column", compare.column},
+                 {"label", compare.label},
+                 {"window", compare.window},
+                 {"time_scale", compare.time_scale},
+                 {"value_scale", compare.value_scale},
+                 {"value_offset", compare.value_offset},
+                 {"error", compare.error}};
+    if (compare.formula.empty())
+        json["file"] = compare.file.filename().string();
+    else
+        json["formula"] = compare.formula;
+    if (compare.change) json["change"] = true;
+    if (compare.scale) json["scale"] = *compare.scale;
+    return json;
+}
+
+Json to_json(const FieldError& error) {
+    Json json = {
+        {"name", error.name}, {"velocity", error.velocity}, {"pressure", error.pressure}, {"where", error.where}};
+    if (error.velocity_scale) json["velocity_scale"] = *error.velocity_scale;
+    if (error.pressure_scale) json["pressure_scale"] = *error.pressure_scale;
+    return json;
 }
 
 }  // namespace
@@ -219,6 +238,17 @@ nlohmann::json to_json(const Scene& scene) {
         json["coupling"] = {{"algorithm", scene.coupling.algorithm == CouplingAlgorithm::cps ? "cps" : "css"},
                             {"ratio", scene.coupling.ratio},
                             {"step_fraction", scene.coupling.step_fraction}};
+    if (!scene.constants.empty()) json["constants"] = scene.constants;
+    for (const Integral& integral : scene.integrals)
+        json["integral"].push_back(
+            {{"name", integral.name}, {"value", integral.value}, {"weight", integral.weight}, {"unit", integral.unit}});
+    for (const Extreme& extreme : scene.extremes)
+        json["extreme"].push_back({{"name", extreme.name},
+                                   {"value", extreme.value},
+                                   {"of", extreme.largest ? "largest" : "smallest"},
+                                   {"where", extreme.where},
+                                   {"unit", extreme.unit}});
+    for (const FieldError& error : scene.field_errors) json["field_error"].push_back(to_json(error));
     for (const Compare& compare : scene.comparisons) json["compare"].push_back(to_json(compare));
     return json;
 }

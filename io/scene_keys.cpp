@@ -16,6 +16,10 @@ constexpr ValueRange at_least_one{1, inf, false, true};
 
 constexpr auto sections = std::to_array<SceneSection>({
     {"", false, true, "Before any table."},
+    {"constants", false, false,
+     "Numbers with names, for formulas: `U = 1.5`, or a formula of other constants, `k = \"2*pi/L\"`. Beside them "
+     "formulas know pi and the scene's own `dx` (spacing), `rho0` and `c0`.",
+     true},
     {"time", false, true, "How long."},
     {"domain", false, true, "Where particles live. Walls and the solid may stand outside it."},
     {"fluid", false, false, "The water: weakly compressible SPH. A scene needs it: a solid alone cannot be run yet."},
@@ -30,6 +34,9 @@ constexpr auto sections = std::to_array<SceneSection>({
     {"fluid.disc", true, false, "Water inside a circle, in two dimensions: a drop, a round tank."},
     {"fluid.sphere", true, false, "Water inside a sphere, in three dimensions."},
     {"fluid.volume", true, false, "Water inside a watertight STL surface, in three dimensions."},
+    {"fluid.initial", false, false, "How the water starts, as formulas of `x`, `y`, `z` and the constants."},
+    {"fluid.central_force", false, false,
+     "An acceleration -rate² (x - centre) beside gravity. Its energy belongs to the potential energy."},
     {"wall", true, false,
      "Rigid walls. Each has exactly one shape: `points`, or one of the tables below. `points` is in two dimensions a "
      "polyline with the fluid on the left of the direction of travel, so a closed tank is walked counter-clockwise; in "
@@ -64,7 +71,16 @@ constexpr auto sections = std::to_array<SceneSection>({
     {"solid.track", true, false, "Points whose displacement goes into history.csv as NAME_x[m] and NAME_y[m]."},
     {"coupling", false, false, "How fluid and solid wait for each other. Only where the scene has both."},
     {"output", false, false, "What is written, and how often."},
-    {"compare", true, false, "Reference curves: drawn in the report, and measured against unless `error = false`."},
+    {"integral", true, false,
+     "A column of history.csv: the value summed over the water, Σ ω value. Formulas of `x y z t vx vy vz p rho "
+     "fullness` (of the support: 1 inside, towards 0 at a free surface) and the constants."},
+    {"extreme", true, false, "A column of history.csv: the largest or smallest value in the water."},
+    {"field_error", true, false,
+     "Columns NAME_velocity_error and NAME_pressure_error of history.csv: the L2 norm, weighted by mass, of the "
+     "difference to fields known as formulas of `x y z t` and the constants, divided by that of the known field."},
+    {"compare", true, false,
+     "Reference curves: drawn in the report, and measured against unless `error = false`. A curve is a file or a "
+     "formula."},
 });
 
 using K = KeyKind;
@@ -110,6 +126,9 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"fluid", "initial_pressure", K::choice, false, "", any, "hydrostatic zero", "hydrostatic", "pressure at t = 0"},
     {"fluid", "surface_level", K::number, false, "m", any, "", "highest top of the water",
      "height (y, in 3D z) at which the hydrostatic pressure is zero"},
+
+    {"fluid", "driving_force", K::point, false, "m/s²", any, "", "none",
+     "an acceleration beside gravity that has no part in hydrostatic pressures: drives a flow between plates"},
 
     {"fluid", "relax", K::boolean, false, "", any, "", "false",
      "moves the particles of polygons, discs, spheres and volumes to a regular distribution before t = 0; they then "
@@ -224,6 +243,12 @@ constexpr auto keys = std::to_array<SceneKey>({
      "",
      "0.5",
      "distance of particles from the surface; without meaning where they are relaxed"},
+
+    {"fluid.initial", "velocity", K::formulas, false, "m/s", any, "", "at rest", "one formula per direction"},
+    {"fluid.initial", "pressure", K::formula, false, "Pa", any, "", "`initial_pressure`", "relative to the air"},
+
+    {"fluid.central_force", "centre", K::point, true, "m", any, "", "", "where it points to"},
+    {"fluid.central_force", "rate", K::number, true, "1/s", positive, "", "", "its square times the distance pulls"},
 
     {"wall", "name", K::text, true, "", any, "", "", "letters, digits and _, beginning with a letter; each once"},
     {"wall", "points", K::points, false, "m", any, "", "none",
@@ -392,14 +417,40 @@ constexpr auto keys = std::to_array<SceneKey>({
      "columns of the fluid's compression, dissipated and viscous energy, of the walls' work and of what is missing in "
      "the balance; costs about a flux pass per stage"},
 
+    {"integral", "name", K::text, true, "", any, "", "", "of the column"},
+    {"integral", "value", K::formula, true, "", any, "", "", "summed with each particle's volume"},
+    {"integral", "weight", K::formula, false, "", any, "", "none", "makes it a mean, Σ ω weight value / Σ ω weight"},
+    {"integral", "unit", K::text, false, "", any, "", "none", "of the column"},
+
+    {"extreme", "name", K::text, true, "", any, "", "", "of the column"},
+    {"extreme", "value", K::formula, true, "", any, "", "", "of each particle, as in [[integral]]"},
+    {"extreme", "of", K::choice, false, "", any, "largest smallest", "largest", "which end"},
+    {"extreme", "where", K::formula, false, "", any, "", "all particles",
+     "only particles where it is not zero: `fullness > 0.3` leaves drops out"},
+    {"extreme", "unit", K::text, false, "", any, "", "none", "of the column"},
+
+    {"field_error", "name", K::text, true, "", any, "", "", "of the columns"},
+    {"field_error", "velocity", K::formulas, false, "m/s", any, "", "not compared", "one formula per direction"},
+    {"field_error", "pressure", K::formula, false, "Pa", any, "", "not compared", "relative to the air"},
+    {"field_error", "where", K::formula, false, "", any, "", "everywhere", "only particles where it is not zero"},
+    {"field_error", "velocity_scale", K::number, false, "m/s", positive, "", "norm of the known field",
+     "the error is divided by"},
+    {"field_error", "pressure_scale", K::number, false, "Pa", positive, "", "norm of the known field",
+     "the error is divided by"},
+
     {"compare", "column", K::text, true, "", any, "", "", "of history.csv, without its unit: tip_x"},
-    {"compare", "file", K::text, true, "", any, "", "",
+    {"compare", "file", K::text, false, "", any, "", "none",
      "two columns of numbers, seen from the scene's folder; lines of text are skipped"},
+    {"compare", "formula", K::formula, false, "", any, "", "none", "of `t`, instead of a file"},
     {"compare", "label", K::text, true, "", any, "", "", "for the report"},
     {"compare", "window", K::interval, false, "s", any, "", "[0, end]", "the time compared"},
     {"compare", "time_scale", K::number, false, "", positive, "", "1", "makes seconds of the first column"},
     {"compare", "value_scale", K::number, false, "", any, "", "1", "makes the column's unit of the second"},
     {"compare", "value_offset", K::number, false, "", any, "", "0", "added after the scale, in the column's unit"},
+    {"compare", "scale", K::number, false, "", positive, "", "the curve's largest value in the window",
+     "the relative error is the error divided by this, in the column's unit"},
+    {"compare", "change", K::boolean, false, "", any, "", "false",
+     "true: compares how far the column has moved from its first row"},
     {"compare", "error", K::boolean, false, "", any, "", "true", "false: drawn only"},
 });
 
@@ -422,6 +473,12 @@ std::string kind_text(const SceneKey& key) {
             return "[x, y]";
         case K::pair_of_counts:
             return "[nx, ny]";
+        case K::formula:
+            return "formula";
+        case K::formulas:
+            return "list of formulas";
+        case K::numbers:
+            return "list of numbers";
         case K::texts:
             return "list of texts";
         case K::points:
@@ -471,14 +528,19 @@ std::span<const std::string_view> reserved_names() {
     return reserved;
 }
 
-const SceneSection* find_section(std::string_view name) {
+const KeyTable& scene_table() {
+    static constexpr KeyTable table{"scene", sections, keys};
+    return table;
+}
+
+const SceneSection* KeyTable::find_section(std::string_view name) const {
     for (const SceneSection& section : sections)
         if (section.name == name) return &section;
     return nullptr;
 }
 
-const SceneKey* find_key(std::string_view section, std::string_view name) {
-    for (const SceneKey& key : scene_keys())
+const SceneKey* KeyTable::find_key(std::string_view section, std::string_view name) const {
+    for (const SceneKey& key : keys)
         if (key.section == section && key.name == name) return &key;
     return nullptr;
 }
@@ -502,6 +564,15 @@ std::string expectation(const SceneKey& key) {
         case K::pair_of_counts:
             text = "two whole numbers [nx, ny]";
             break;
+        case K::formula:
+            text = "a formula in quotes or a number";
+            break;
+        case K::numbers:
+            text = "a list of numbers [a, b, …]";
+            break;
+        case K::formulas:
+            text = "a list of formulas [\"…\", …]";
+            break;
         case K::texts:
             text = "a list of texts [\"…\", …]";
             break;
@@ -520,7 +591,7 @@ std::string expectation(const SceneKey& key) {
     else if (range.front() == '[' || range.front() == ']')
         text += " in " + range;
     else if (range != "any")
-        text += (key.kind == K::pair_of_counts ? ", each " : " ") + range;
+        text += (key.kind == K::pair_of_counts || key.kind == K::numbers ? ", each " : " ") + range;
     if (!key.unit.empty()) text += fmt::format(", in {}", key.unit);
     return text;
 }
@@ -530,12 +601,13 @@ std::string section_heading(const SceneSection& section) {
     return section.repeated ? fmt::format("[[{}]]", section.name) : fmt::format("[{}]", section.name);
 }
 
-std::string section_markdown(const SceneSection& section) {
+std::string section_markdown(const SceneSection& section, const KeyTable& table) {
     std::string text =
         section.name.empty() ? "## Top of the file\n\n" : fmt::format("## `{}`\n\n", section_heading(section));
+    if (section.free_names) return text + fmt::format("{}\n", section.meaning);
     text += fmt::format("{}\n\n| key | takes | unit | range | default | meaning |\n|---|---|---|---|---|---|\n",
                         section.meaning);
-    for (const SceneKey& key : scene_keys()) {
+    for (const SceneKey& key : table.keys) {
         if (key.section != section.name) continue;
         const std::string range = key.kind == K::choice ? choices_text(key.choices, "`") : key.range.text();
         text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, kind_text(key),

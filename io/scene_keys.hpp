@@ -8,7 +8,21 @@
 
 namespace aquagraph::io {
 
-enum class KeyKind { number, integer, boolean, text, choice, point, pair_of_counts, texts, points, interval };
+enum class KeyKind {
+    number,
+    integer,
+    boolean,
+    text,
+    choice,
+    point,
+    pair_of_counts,
+    texts,
+    points,
+    interval,
+    formula,
+    formulas,
+    numbers
+};
 
 // The values that a number may have; the text of benchmarks/SCENES.md is made from it too.
 struct ValueRange {
@@ -37,14 +51,23 @@ struct SceneSection {
     bool repeated;          // [[fluid.box]]
     bool required;          // of every scene
     std::string_view meaning;
+    bool free_names = false;  // the names of its keys are the writer's; each takes a number or a formula
 };
 
+// What a kind of file may hold: scenes here, studies in io/study_file.hpp.
+struct KeyTable {
+    std::string_view what;  // "scene", for messages
+    std::span<const SceneSection> sections;
+    std::span<const SceneKey> keys;
+
+    // nullptr where there is none.
+    const SceneSection* find_section(std::string_view name) const;
+    const SceneKey* find_key(std::string_view section, std::string_view name) const;
+};
+
+const KeyTable& scene_table();
 std::span<const SceneSection> scene_sections();
 std::span<const SceneKey> scene_keys();
-
-// nullptr where there is none.
-const SceneSection* find_section(std::string_view name);
-const SceneKey* find_key(std::string_view section, std::string_view name);
 
 // "a number > 0 in m", "[x, y] in m", "one of muscl, none": what a key takes.
 std::string expectation(const SceneKey& key);
@@ -55,7 +78,7 @@ std::string section_heading(const SceneSection& section);
 // Names that history.csv and the results use themselves: not for walls, bodies and tracks.
 std::span<const std::string_view> reserved_names();
 
-// Heading, meaning and table of a section as they stand in benchmarks/SCENES.md.
-std::string section_markdown(const SceneSection& section);
+// Heading, meaning and table of a section as they stand in benchmarks/SCENES.md and STUDIES.md.
+std::string section_markdown(const SceneSection& section, const KeyTable& table = scene_table());
 
 }  // namespace aquagraph::io

@@ -8,6 +8,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/scene_dimension.hpp"
+#include "io/scene_formulas.hpp"
 #include "io/scene_geometry_reader.hpp"
 #include "io/scene_validation.hpp"
 #include "io/scene_words.hpp"
@@ -36,6 +37,7 @@ class Filler {
         : document_(document), complaints_(complaints), scene_(scene) {}
 
     void everything() {
+        scene_.constants = resolve_constants(document_, complaints_);
         document_.take("title", scene_.title);
         scene_.dimension = agree_on_dimension(document_, complaints_);
         if (scene_.dimension == 3) scene_.gravity = Point(0, 0, -9.81);
@@ -56,6 +58,7 @@ class Filler {
         document_.take("output.frame_interval", scene_.output.frame_interval);
         document_.take("output.history_interval", scene_.output.history_interval);
         document_.take("output.energy_ledger", scene_.output.energy_ledger);
+        columns();
         comparisons();
     }
 
@@ -112,6 +115,14 @@ class Filler {
         document_.take("fluid.relax", fluid.relax);
         document_.take("fluid.relax_tolerance", fluid.relax_tolerance);
         read_water(document_, scene_.file.parent_path(), scene_.dimension, fluid);
+        if (Point force; document_.take("fluid.driving_force", force)) fluid.driving_force = force;
+        document_.take("fluid.initial.velocity", fluid.initial.velocity);
+        document_.take("fluid.initial.pressure", fluid.initial.pressure);
+        if (document_.count("fluid.central_force")) {
+            fluid.central_force.emplace();
+            document_.take("fluid.central_force.centre", fluid.central_force->centre);
+            document_.take("fluid.central_force.rate", fluid.central_force->rate);
+        }
     }
 
     void walls() {
@@ -186,18 +197,51 @@ class Filler {
                             "fixed = [\"x\", \"y\"] holds the nodes where they are");
     }
 
+    void columns() {
+        for (int i = 0; i < document_.count("integral"); ++i) {
+            Integral& integral = scene_.integrals.emplace_back();
+            const std::string at = fmt::format("integral[{}].", i);
+            document_.take(at + "name", integral.name);
+            document_.take(at + "value", integral.value);
+            document_.take(at + "weight", integral.weight);
+            document_.take(at + "unit", integral.unit);
+        }
+        for (int i = 0; i < document_.count("extreme"); ++i) {
+            Extreme& extreme = scene_.extremes.emplace_back();
+            const std::string at = fmt::format("extreme[{}].", i);
+            document_.take(at + "name", extreme.name);
+            document_.take(at + "value", extreme.value);
+            choose(at + "of", extreme.largest, {{"largest", true}, {"smallest", false}});
+            document_.take(at + "where", extreme.where);
+            document_.take(at + "unit", extreme.unit);
+        }
+        for (int i = 0; i < document_.count("field_error"); ++i) {
+            FieldError& error = scene_.field_errors.emplace_back();
+            const std::string at = fmt::format("field_error[{}].", i);
+            document_.take(at + "name", error.name);
+            document_.take(at + "velocity", error.velocity);
+            document_.take(at + "pressure", error.pressure);
+            document_.take(at + "where", error.where);
+            if (double scale = 0; document_.take(at + "velocity_scale", scale)) error.velocity_scale = scale;
+            if (double scale = 0; document_.take(at + "pressure_scale", scale)) error.pressure_scale = scale;
+        }
+    }
+
     void comparisons() {
         for (int i = 0; i < document_.count("compare"); ++i) {
             Compare& compare = scene_.comparisons.emplace_back();
             const std::string at = fmt::format("compare[{}].", i);
             document_.take(at + "column", compare.column);
             if (std::string file; document_.take(at + "file", file)) compare.file = beside_the_scene(file);
+            document_.take(at + "formula", compare.formula);
+            if (double scale = 0; document_.take(at + "scale", scale)) compare.scale = scale;
             document_.take(at + "label", compare.label);
             compare.window = {0, scene_.end_time};
             document_.take(at + "window", compare.window);
             document_.take(at + "time_scale", compare.time_scale);
             document_.take(at + "value_scale", compare.value_scale);
             document_.take(at + "value_offset", compare.value_offset);
+            document_.take(at + "change", compare.change);
             document_.take(at + "error", compare.error);
         }
     }
@@ -230,13 +274,18 @@ void check_compared_columns(const Scene& scene, std::span<const std::string> col
     if (!complaints.empty()) throw SceneError(scene.file, scene.text, std::move(complaints));
 }
 
-Scene read_scene(const std::filesystem::path& file) {
+Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
     Scene scene;
+    int lines = 0;
     try {
         if (std::filesystem::is_directory(file))
             throw std::system_error(std::make_error_code(std::errc::is_a_directory));
         scene.file = std::filesystem::absolute(file).lexically_normal();
         scene.text = read_file(file);
+        scene.overrides.assign(overrides.begin(), overrides.end());
+        if (!overrides.empty() && !scene.text.ends_with('\n')) scene.text += '\n';
+        lines = int(std::count(scene.text.begin(), scene.text.end(), '\n'));
+        for (const std::string& override : overrides) scene.text += fmt::format("{}{}\n", override_mark, override);
     } catch (const std::system_error& error) {
         throw SceneError(file, {},
                          {{"",
@@ -248,7 +297,7 @@ Scene read_scene(const std::filesystem::path& file) {
     scene.title = scene.name;
 
     Complaints complaints;
-    const CheckedDocument document = check_document(scene.text, complaints);
+    const CheckedDocument document = check_document(scene_table(), scene.text, complaints, scene.overrides, lines + 1);
     // A file that is no TOML, or of another version, says nothing about what else may be wrong in it.
     if (!complaints.positions.empty() && !complaints.touch("schema_version")) {
         Filler(document, complaints, scene).everything();

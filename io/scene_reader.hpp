@@ -33,8 +33,12 @@ class SceneError : public std::runtime_error {
     std::vector<SceneComplaint> complaints_;
 };
 
+// overrides: "fluid.spacing=0.01", keys that are given on the command line and stand above the file's; checked like it.
 // Throws SceneError on a bad or unreadable file.
-Scene read_scene(const std::filesystem::path& file);
+Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+
+// Begins the lines of Scene::text that are overrides.
+inline constexpr std::string_view override_mark = "# --set ";
 
 // For what only turns out later (a set that the mesh does not have): an error that points at `key` of a scene already
 // read. An unknown key points at the nearest enclosing table that stands in the file.

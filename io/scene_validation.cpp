@@ -9,6 +9,7 @@
 #include <set>
 
 #include "io/comparison.hpp"
+#include "io/scene_formulas.hpp"
 #include "io/scene_geometry_validation.hpp"
 #include "io/scene_keys.hpp"
 #include "io/suggestion.hpp"
@@ -247,7 +248,15 @@ class Validation {
                     fmt::format("`window` runs backwards, from {} s to {} s", compare.window[0], compare.window[1]),
                     "window = [from, to] with from < to");
             const std::string key = element("compare", i, "file");
-            if (complaints_.touch(key)) continue;
+            if (complaints_.touch(key) || complaints_.touch(element("compare", i, "formula"))) continue;
+            if (compare.file.empty() == compare.formula.empty()) {
+                complaints_.add(element("compare", i),
+                                compare.file.empty() ? "there is nothing to compare with"
+                                                     : "there are both a `file` and a `formula` to compare with",
+                                "give either `file` or `formula`");
+                continue;
+            }
+            if (compare.file.empty()) continue;
             const std::string help = "two columns of numbers, time and value; the path is seen from the scene's folder";
             if (!std::filesystem::exists(compare.file)) {
                 complaints_.add(
@@ -362,6 +371,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.names();
     validation.probes();
     validation.comparisons();
+    validate_formulas(scene, complaints);
 }
 
 }  // namespace aquagraph::io

@@ -14,6 +14,7 @@ nlohmann::json to_json(const Comparison& comparison) {
             {"unit", comparison.unit},
             {"label", comparison.label},
             {"file", comparison.file.filename().string()},
+            {"formula", comparison.formula},
             {"window_s", comparison.window},
             {"points", comparison.points},
             {"points_in_window", comparison.points_in_window},

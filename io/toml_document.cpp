@@ -9,13 +9,14 @@
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
-#include "io/scene_keys.hpp"
 #include "io/suggestion.hpp"
 
 namespace aquagraph::io {
 namespace {
 
+// Where things given on the command line are said to stand: their text was parsed under a path that is this line.
 SourcePosition place(const toml::source_region& region) {
+    if (region.path) return {std::stoi(*region.path), 1};
     return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
@@ -48,7 +49,8 @@ std::string help_for(const SceneKey& key) {
 
 class Checker {
   public:
-    Checker(CheckedDocument& document, Complaints& complaints) : document_(document), complaints_(complaints) {}
+    Checker(const KeyTable& known, CheckedDocument& document, Complaints& complaints)
+        : known_(known), document_(document), complaints_(complaints) {}
 
     void table(const SceneSection& section, const std::string& path, const toml::table& table) {
         if (section.name.empty() && !version_is_known(table)) return;
@@ -56,14 +58,16 @@ class Checker {
             const std::string full = dotted(path, key.str());
             const std::string child = dotted(std::string(section.name), key.str());
             complaints_.positions.try_emplace(full, place(node.source()));
-            if (const SceneKey* known = find_key(section.name, key.str()))
+            if (section.free_names)
+                free(full, key.str(), place(key.source()), node);
+            else if (const SceneKey* known = known_.find_key(section.name, key.str()))
                 value(*known, full, node);
-            else if (const SceneSection* inner = find_section(child))
+            else if (const SceneSection* inner = known_.find_section(child))
                 subtable(*inner, full, place(key.source()), node);
             else
                 unknown(section, key.str(), full, place(key.source()));
         }
-        for (const SceneKey& key : scene_keys())
+        for (const SceneKey& key : known_.keys)
             if (key.section == section.name && key.required && !table.contains(key.name))
                 complaints_.add(dotted(path, key.name),
                                 fmt::format("`{}` is missing{}", key.name,
@@ -74,20 +78,21 @@ class Checker {
 
   private:
     void missing_tables(const toml::table& root) {
-        for (const SceneSection& section : scene_sections())
+        for (const SceneSection& section : known_.sections)
             if (section.required && !section.name.empty() && !root.contains(section.name))
-                complaints_.add_at({1, 1}, section.name,
-                                   fmt::format("the table {} is missing", section_heading(section)),
-                                   fmt::format("every scene needs {}: {}", section_heading(section), section.meaning));
+                complaints_.add_at(
+                    {1, 1}, section.name, fmt::format("the table {} is missing", section_heading(section)),
+                    fmt::format("every {} needs {}: {}", known_.what, section_heading(section), section.meaning));
     }
 
     // Another version has other keys: nothing else that could be said of such a file would help.
     bool version_is_known(const toml::table& root) {
         const toml::node* node = root.get("schema_version");
-        if (!node || !node->is_integer() || node->value_or(0LL) == 1) return true;
+        if (!known_.find_key("", "schema_version") || !node || !node->is_integer() || node->value_or(0LL) == 1)
+            return true;
         complaints_.positions["schema_version"] = place(node->source());
         complaints_.add("schema_version", fmt::format("schema_version {} is not supported", node->value_or(0LL)),
-                        "this program reads scenes of schema_version = 1");
+                        fmt::format("this program reads a {} of schema_version = 1", known_.what));
         return false;
     }
 
@@ -126,10 +131,10 @@ class Checker {
 
     void unknown(const SceneSection& section, std::string_view name, const std::string& path, SourcePosition where) {
         std::vector<std::string> known;
-        for (const SceneKey& key : scene_keys())
+        for (const SceneKey& key : known_.keys)
             if (key.section == section.name) known.emplace_back(key.name);
         const std::string prefix = section.name.empty() ? "" : fmt::format("{}.", section.name);
-        for (const SceneSection& inner : scene_sections())
+        for (const SceneSection& inner : known_.sections)
             if (inner.name.size() > prefix.size() && inner.name.starts_with(prefix) &&
                 inner.name.find('.', prefix.size()) == std::string_view::npos)
                 known.emplace_back(inner.name.substr(prefix.size()));
@@ -138,11 +143,11 @@ class Checker {
         if (const auto guess = nearest(name, known)) {
             help = fmt::format("did you mean `{}`?", *guess);
         } else {
-            for (const SceneKey& key : scene_keys())
+            for (const SceneKey& key : known_.keys)
                 if (key.name == name && help.empty())
-                    help = key.section.empty()
-                               ? fmt::format("`{}` belongs at the top of the file", name)
-                               : fmt::format("`{}` belongs to {}", name, section_heading(*find_section(key.section)));
+                    help = key.section.empty() ? fmt::format("`{}` belongs at the top of the file", name)
+                                               : fmt::format("`{}` belongs to {}", name,
+                                                             section_heading(*known_.find_section(key.section)));
             if (help.empty()) help = fmt::format("known here: {}", fmt::join(known, ", "));
         }
         complaints_.add_at(where, path,
@@ -156,6 +161,23 @@ class Checker {
             place(node.source()), path,
             fmt::format("`{}` must be {}, but it is {}", key.name, expectation(key), is.empty() ? type_text(node) : is),
             help_for(key));
+    }
+
+    void free(const std::string& path, std::string_view name, SourcePosition where, const toml::node& node) {
+        if (const auto number = node.value<double>(); number && node.is_number() && std::isfinite(*number))
+            keep(path, *number);
+        else if (const auto words = node.value_exact<std::string>(); words && !words->empty())
+            keep(path, *words);
+        else
+            complaints_.add_at(where, path, fmt::format("`{}` must be a finite number or a formula in quotes", name),
+                               "U = 1.5, or k = \"2*pi/L\"");
+    }
+
+    // A number is a formula too.
+    std::optional<std::string> formula(const SceneKey& key, const std::string& path, const toml::node& node) {
+        if (!node.is_number()) return text(key, path, node);
+        const auto number = finite(key, path, node);
+        return number ? std::optional(fmt::format("{}", *number)) : std::nullopt;
     }
 
     void value(const SceneKey& key, const std::string& path, const toml::node& node) {
@@ -176,6 +198,9 @@ class Checker {
             case KeyKind::text:
                 if (const auto words = text(key, path, node)) keep(path, *words);
                 break;
+            case KeyKind::formula:
+                if (const auto words = formula(key, path, node)) keep(path, *words);
+                break;
             case KeyKind::choice:
                 choice(key, path, node);
                 break;
@@ -185,10 +210,14 @@ class Checker {
             case KeyKind::interval:
                 if (const auto both = pair(key, path, node)) keep(path, *both);
                 break;
+            case KeyKind::numbers:
+                numbers(key, path, node);
+                break;
             case KeyKind::pair_of_counts:
                 counts(key, path, node);
                 break;
             case KeyKind::texts:
+            case KeyKind::formulas:
                 texts(key, path, node);
                 break;
             case KeyKind::points:
@@ -296,7 +325,7 @@ class Checker {
         std::vector<std::string> words;
         bool good = true;
         for (auto&& element : *all) {
-            const auto word = text(key, path, element);
+            const auto word = key.kind == KeyKind::formulas ? formula(key, path, element) : text(key, path, element);
             good = good && word;
             if (word) words.push_back(*word);
         }
@@ -316,7 +345,91 @@ class Checker {
         if (good) keep(path, std::move(corners));
     }
 
+    void numbers(const SceneKey& key, const std::string& path, const toml::node& node) {
+        const toml::array* all = list(key, path, node);
+        if (!all) return;
+        std::vector<double> values;
+        bool good = true;
+        for (auto&& element : *all) {
+            const auto number = finite(key, path, element);
+            good = good && number && inside(key, path, element, *number);
+            if (number) values.push_back(*number);
+        }
+        if (good) keep(path, std::move(values));
+    }
+
+    const KeyTable& known_;
     CheckedDocument& document_;
+    Complaints& complaints_;
+};
+
+// Puts overrides into the tables that the file gave.
+class Override {
+  public:
+    Override(const std::string& text, int line, Complaints& complaints)
+        : text_(text), line_(line), complaints_(complaints) {}
+
+    void apply(toml::table& root) {
+        const std::size_t equals = text_.find('=');
+        if (equals == std::string::npos || equals == 0)
+            return complain("this is not KEY=VALUE", "give a key of the file and its value: fluid.spacing=0.01");
+        toml::table parsed = value(text_.substr(equals + 1));
+        toml::table* table = &root;
+        std::string_view path = std::string_view(text_).substr(0, equals);
+        while (!path.empty() && path.back() == ' ') path.remove_suffix(1);
+        for (std::size_t dot = path.find('.'); dot != std::string_view::npos; dot = path.find('.')) {
+            table = inner(*table, path.substr(0, dot));
+            if (!table) return;
+            path.remove_prefix(dot + 1);
+        }
+        toml::node& given = *parsed.get("value");
+        table->insert_or_assign(toml::key(path, toml::source_region(given.source())),
+                                std::move(given));  // a copy would not know its place
+    }
+
+  private:
+    void complain(std::string message, std::string help) {
+        complaints_.add_at({line_, 1}, "", std::move(message), std::move(help));
+    }
+
+    // A word without quotes is a text.
+    toml::table value(const std::string& given) const {
+        const std::string path = std::to_string(line_);
+        try {
+            return toml::parse("value = " + given, path);
+        } catch (const toml::parse_error&) {
+            std::string escaped;
+            for (const char c : given) {
+                if (c == '"' || c == '\\') escaped += '\\';
+                escaped += c;
+            }
+            return toml::parse("value = \"" + escaped + '"', path);
+        }
+    }
+
+    toml::table* inner(toml::table& table, std::string_view name) {
+        const std::size_t bracket = name.find('[');
+        toml::node* node = table.get(name.substr(0, bracket));
+        if (bracket == std::string_view::npos) {
+            if (!node) node = &table.insert(name, toml::table{}).first->second;
+            if (node->is_table()) return node->as_table();
+            complain(fmt::format("`{}` is {}, not a table", name, type_text(*node)),
+                     fmt::format("one of a list of tables is {}[0]", name));
+            return nullptr;
+        }
+        const int place = std::atoi(std::string(name.substr(bracket + 1)).c_str());
+        toml::array* list = node ? node->as_array() : nullptr;
+        const std::size_t size = list ? list->size() : 0;
+        if (!name.ends_with(']') || place < 0 || std::size_t(place) >= size ||
+            !list->get(std::size_t(place))->is_table()) {
+            complain(fmt::format("there is no {}: the file has {} of them", name, size), "the first one is number 0");
+            return nullptr;
+        }
+        return list->get(std::size_t(place))->as_table();
+    }
+
+    const std::string& text_;
+    int line_;
     Complaints& complaints_;
 };
 
@@ -327,11 +440,14 @@ int CheckedDocument::count(const std::string& section) const {
     return found == tables.end() ? 0 : found->second;
 }
 
-CheckedDocument check_document(std::string_view text, Complaints& complaints) {
+CheckedDocument check_document(const KeyTable& known, std::string_view text, Complaints& complaints,
+                               std::span<const std::string> overrides, int first_line_of_overrides) {
     CheckedDocument document;
     try {
-        const toml::table root = toml::parse(text);
-        Checker(document, complaints).table(*find_section(""), "", root);
+        toml::table root = toml::parse(text);
+        for (std::size_t k = 0; k < overrides.size(); ++k)
+            Override(overrides[k], first_line_of_overrides + int(k), complaints).apply(root);
+        Checker(known, document, complaints).table(*known.find_section(""), "", root);
     } catch (const toml::parse_error& error) {
         complaints.add_at(place(error.source()), "", fmt::format("not valid TOML: {}", error.description()),
                           "a key stands once and takes one value, texts stand in quotes, every bracket is closed");

@@ -10,6 +10,7 @@
 #include "io/atomic_file.hpp"
 #include "io/scene_keys.hpp"
 #include "io/scene_reader.hpp"
+#include "io/study_file.hpp"
 #include "io/suggestion.hpp"
 #include "scratch.hpp"
 
@@ -103,6 +104,14 @@ TEST_CASE("SCENES.md shows every key that the reader knows, and no other") {
     }
     for (const std::string_view name : io::reserved_names())
         CHECK(manual.find(std::string("`").append(name).append("`")) != std::string::npos);
+}
+
+TEST_CASE("STUDIES.md shows every key of a study") {
+    const std::string manual = io::read_file(benchmarks / "STUDIES.md");
+    for (const io::SceneSection& section : io::study_table().sections) {
+        CAPTURE(section.name);
+        CHECK(manual.find(io::section_markdown(section, io::study_table())) != std::string::npos);
+    }
 }
 
 TEST_CASE("the examples of SCENES.md are scenes") {

@@ -1,0 +1,223 @@
+// Studies: the matrix, what is kept, what fails, tables, plots and markers, with the program as the child.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "engine/study.hpp"
+#include "engine/study_report.hpp"
+#include "io/atomic_file.hpp"
+#include "tests/engine/scenes.hpp"
+
+using namespace aquagraph;
+using namespace aquagraph::test;
+
+namespace {
+
+// Flies freely and is over after a few steps.
+const std::string patch = R"scene(schema_version = 1
+title = "Patch"
+gravity = [0, 0]
+[time]
+end = 0.01
+[domain]
+min = [-2, -2]
+max = [3, 3]
+[fluid]
+spacing = 0.1
+sound_speed = 10
+[fluid.initial]
+velocity = ["0.2", "0"]
+[[fluid.box]]
+min = [0, 0]
+max = [1, 1]
+[[integral]]
+name = "discrete"
+value = "x^2"
+[[compare]]
+column = "discrete"
+formula = "1/3"
+label = "integral of x squared"
+window = [0, 1e-9]
+[[compare]]
+column = "fluid_kinetic_energy"
+formula = "20"
+label = "energy"
+)scene";
+
+const std::string matrix = R"scene(schema_version = 1
+title = "Test of studies"
+[[variant]]
+name = "muscl"
+label = "MUSCL"
+[[variant]]
+name = "first"
+set = ["fluid.scheme.reconstruction=none"]
+[[case]]
+scene = "patch/scene.toml"
+resolutions = [0.2, 0.1]
+)scene";
+
+struct Bench {
+    ScratchFolder folder;
+    std::filesystem::path file;
+
+    explicit Bench(const std::string& text = matrix, const std::string& scene = patch) {
+        std::filesystem::create_directories(folder / "patch");
+        folder.write("patch/scene.toml", scene);
+        file = folder.write("tiny.study.toml", text);
+    }
+    engine::StudyOptions options() const {
+        engine::StudyOptions made;
+        made.folder = folder / "runs";
+        made.program = AQUAGRAPH_PROGRAM;
+        made.threads = 1;
+        return made;
+    }
+    std::string said;
+    engine::ExitCode run(const engine::StudyOptions& options, std::string* printed = nullptr) {
+        std::ostringstream out, err;
+        const auto code = engine::study(io::read_study(file), options, out, err);
+        said = err.str();
+        if (printed) *printed = out.str();
+        return code;
+    }
+    std::string results() const { return contents(folder / "RESULTS.md"); }
+};
+
+std::size_t lines_with(const std::string& text, const std::string& what) {
+    std::istringstream lines(text);
+    std::size_t found = 0;
+    for (std::string line; std::getline(lines, line);) found += line.find(what) != std::string::npos;
+    return found;
+}
+
+std::string refusal(const std::string& study) {
+    const Bench bench(study);
+    try {
+        io::read_study(bench.file);
+    } catch (const io::SceneError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("a study writes a table with the errors, their order and the time of every run") {
+    Bench bench;
+    REQUIRE(bench.run(bench.options()) == engine::success);
+    const std::string text = bench.results();
+    CHECK(text.find("<!-- begin study tiny -->") != std::string::npos);
+    CHECK(text.find("<!-- end study tiny -->") != std::string::npos);
+    CHECK(text.find("## Test of studies") != std::string::npos);
+    CHECK(lines_with(text, "| MUSCL |") == 2);
+    CHECK(lines_with(text, "| first |") == 2);
+    // The midpoint rule misses 1/3 by h²/12: 1 % and 0.25 %, order 2.
+    CHECK(lines_with(text, "| 25 | 1 % |  |") == 2);
+    CHECK(lines_with(text, "| 100 | 0.25 % | 2.0 |") == 2);
+    if (std::system("gnuplot --version > /dev/null 2>&1") == 0) {
+        CHECK(text.find("](plots/tiny_patch.svg)") != std::string::npos);
+        CHECK(contents(bench.folder / "plots/tiny_patch.svg").find("MUSCL") != std::string::npos);
+    }
+}
+
+TEST_CASE("finished runs are kept until the scene or the study wants something else") {
+    Bench bench;
+    bench.run(bench.options());
+    CHECK(lines_with(bench.said, "(kept)") == 0);
+    bench.run(bench.options());
+    CHECK(lines_with(bench.said, "(kept)") == 4);
+    auto fresh = bench.options();
+    fresh.fresh = true;
+    bench.run(fresh);
+    CHECK(lines_with(bench.said, "(kept)") == 0);
+    auto twice = bench.options();
+    twice.repeats = 2;
+    bench.run(twice);
+    CHECK(lines_with(bench.said, "(kept)") == 4);
+    CHECK(bench.results().find("medians of 2 runs") != std::string::npos);
+    bench.folder.write("patch/scene.toml", with(patch, "0.2", "0.3"));
+    bench.run(bench.options());
+    CHECK(lines_with(bench.said, "(kept)") == 0);
+}
+
+TEST_CASE("other sections of the file survive") {
+    Bench bench;
+    const std::string before = "# Results\n\nbefore\n\n<!-- begin study other -->\nx\n<!-- end study other -->\n";
+    bench.folder.write("RESULTS.md", before);
+    bench.run(bench.options());
+    bench.run(bench.options());
+    const std::string text = bench.results();
+    CHECK(text.starts_with(before));
+    CHECK(lines_with(text, "begin study tiny") == 1);
+    bench.folder.write("RESULTS.md", "<!-- begin study tiny -->\nhalf\n");
+    CHECK_THROWS_WITH_AS(bench.run(bench.options()), doctest::Contains("end study tiny"), std::runtime_error);
+}
+
+TEST_CASE("a run that fails is a row that says so") {
+    // At a tenth of the sound speed's pressure the water would have no volume; the fine run's domain is too small.
+    const std::string text = with(matrix, "set = [\"fluid.scheme.reconstruction=none\"]",
+                                  "set = [\"fluid.initial.velocity=['1000', '0']\", \"time.end=0.5\"]");
+    Bench bench(text);
+    REQUIRE(bench.run(bench.options()) == engine::success);
+    CHECK(lines_with(bench.results(), "failed: ") == 2);
+    CHECK(lines_with(bench.results(), "| MUSCL |") == 2);
+    CHECK(bench.said.find("2 runs have failed") != std::string::npos);
+}
+
+TEST_CASE("a run that takes too long is stopped") {
+    Bench bench(with(matrix, "[[variant]]\nname = \"muscl\"", "time_limit = 0.3\n[[variant]]\nname = \"muscl\""),
+                with(with(patch, "end = 0.01", "end = 1e6"), "[\"0.2\", \"0\"]", "[\"0\", \"0\"]"));
+    auto options = bench.options();
+    options.only = {"patch/first"};
+    options.coarse = true;
+    std::string printed;
+    REQUIRE(bench.run(options, &printed) == engine::success);
+    CHECK(printed.find("stopped after 0.3 s") != std::string::npos);
+}
+
+TEST_CASE("a part of a study is printed, not written") {
+    Bench bench;
+    auto options = bench.options();
+    options.coarse = true;
+    std::string printed;
+    bench.run(options, &printed);
+    CHECK(lines_with(printed, "| MUSCL |") == 1);
+    options = bench.options();
+    options.only = {"first"};
+    bench.run(options, &printed);
+    CHECK(lines_with(printed, "| MUSCL |") == 0);
+    CHECK(lines_with(printed, "| first |") == 2);
+    options.only = {"nothing"};
+    CHECK_THROWS_AS(bench.run(options), std::invalid_argument);
+    options.only.clear();
+    options.list = true;
+    bench.run(options, &printed);
+    CHECK(lines_with(printed, "patch/") == 4);
+    CHECK_FALSE(std::filesystem::exists(bench.folder / "RESULTS.md"));
+}
+
+TEST_CASE("observed order") {
+    CHECK(engine::observed_order(0.04, 0.01, 0.2, 0.1) == doctest::Approx(2));
+    CHECK(std::isnan(engine::observed_order(0, 0.01, 0.2, 0.1)));
+    CHECK(std::isnan(engine::observed_order(0.04, NAN, 0.2, 0.1)));
+}
+
+TEST_CASE("mistakes in a study are named with their place") {
+    CHECK(refusal(matrix).empty());
+    CHECK(refusal(with(matrix, "resolutions = [0.2, 0.1]", "resolutions = [0.1, 0.2]")).find("coarse to fine") !=
+          std::string::npos);
+    CHECK(refusal(with(matrix, "resolutions", "resolution")).find("did you mean `resolutions`") != std::string::npos);
+    CHECK(refusal(with(matrix, "patch/scene", "batch/scene")).find("tiny.study.toml:10:9") != std::string::npos);
+    CHECK(refusal(matrix + "variants = [\"musl\"]\n").find("did you mean \"muscl\"") != std::string::npos);
+    CHECK(refusal(with(matrix, "name = \"first\"", "name = \"muscl\"")).find("already taken") != std::string::npos);
+    CHECK(refusal("schema_version = 1\n").find("no [[case]]") != std::string::npos);
+    CHECK(refusal("schema_version = 2\n").find("reads a study") != std::string::npos);
+
+    Bench bad_override(with(matrix, "fluid.scheme.reconstruction=none", "fluid.recon=none"));
+    CHECK_THROWS_WITH_AS(bad_override.run(bad_override.options()), doctest::Contains("--set fluid.recon=none"),
+                         io::SceneError);
+    Bench no_label(matrix + "error = \"drag\"\n");
+    CHECK_THROWS_WITH_AS(no_label.run(no_label.options()), doctest::Contains("drag"), std::invalid_argument);
+}
