@@ -52,7 +52,8 @@ inline Driver<2> settle(const std::vector<Point<2>>& points, double spacing, Pan
 }
 
 // Lanes closer than R that particle i sees, itself left out.
-inline std::vector<std::size_t> neighbours_of(const Fluid<2>& fluid, std::size_t i) {
+template <int D>
+std::vector<std::size_t> neighbours_of(const Fluid<D>& fluid, std::size_t i) {
     const auto& s = fluid.particles;
     const std::size_t block = i / (clusters_per_block * W), local = i - block * clusters_per_block * W;
     const NeighbourBlock& list = fluid.lists.blocks[block];
@@ -70,7 +71,8 @@ inline std::vector<std::size_t> neighbours_of(const Fluid<2>& fluid, std::size_t
 }
 
 // Σ W ω over everything that particle i sees and itself: 1 where the support is full, more where a place counts twice.
-inline double partition_of_unity(const Fluid<2>& fluid, std::size_t i) {
+template <int D>
+double partition_of_unity(const Fluid<D>& fluid, std::size_t i) {
     const auto& s = fluid.particles;
     double sum = fluid.kernel.value(0) * s.volume[i];
     for (const std::size_t j : neighbours_of(fluid, i)) sum += fluid.kernel.value(distance(s, i, j)) * s.volume[j];

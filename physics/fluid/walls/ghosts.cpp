@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace aquagraph::fluid {
 
@@ -148,6 +149,7 @@ template <int D>
 void GhostWalls<D>::collect_panels(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell,
                                    double spacing, double reach) {
     const double tolerance = 0.5 * spacing;
+    constexpr auto none = std::numeric_limits<std::size_t>::max();
     mirrored_by_.clear();
     for (std::size_t entry = 0; entry < cell.panel.size(); ++entry) {
         const auto panel = std::size_t(cell.panel[entry]);
@@ -155,16 +157,27 @@ void GhostWalls<D>::collect_panels(std::size_t j, const Vec<D>& x, const typenam
         const Vec<D> there = copy == 0 ? x : Vec<D>(x - periodic.shift(copy));
         const double d = panels.height(panel, there);
         if (d <= -tolerance || d >= reach || !owns(panel, there)) continue;
-        if (D == 3) {  // one ghost per facet
-            const std::pair<int, int> facet{facet_[panel], copy};
-            if (std::find(mirrored_by_.begin(), mirrored_by_.end(), facet) != mirrored_by_.end()) continue;
-            mirrored_by_.push_back(facet);
+        if constexpr (D == 3) {  // one ghost per facet: of the triangle that the foot lies on, or nearly
+            const auto shape = panels.shape_functions(panel, there);
+            const double inside = std::min({shape[0], shape[1], shape[2]});
+            const auto same = std::find_if(mirrored_by_.begin(), mirrored_by_.end(), [&](const ByFacet& other) {
+                return other.facet == facet_[panel] && other.copy == copy;
+            });
+            if (same != mirrored_by_.end()) {
+                if (inside > same->inside && same->inside < 0) {
+                    same->inside = inside;
+                    if (same->ghost != none) unsorted_[same->ghost].panel = int(panel);
+                }
+                continue;
+            }
+            mirrored_by_.push_back({facet_[panel], copy, inside, none});
         }
         if (!cell.convex_room && d > 0) {
             // Something between the particle and the foot of its perpendicular hides the panel from it.
             const Vec<D> foot = x - (d - 1e-6 * spacing) * panels.normal[panel];
             if (PanelGrid<D>::first_crossing(cell, x, foot).entry >= 0) continue;
         }
+        if (D == 3) mirrored_by_.back().ghost = unsorted_.size();
         unsorted_.push_back({std::uint32_t(j), int(panel), -1, std::uint8_t(copy), 0});
     }
 }

@@ -92,7 +92,12 @@ class GhostWalls {
     std::vector<int> facet_;
     std::vector<std::array<double, D>> owned_from_;
     std::vector<std::array<bool, D>> goes_on_;
-    std::vector<std::pair<int, int>> mirrored_by_;
+    struct ByFacet {  // of the particle at hand
+        int facet, copy;
+        double inside;  // smallest shape function at the foot
+        std::size_t ghost;
+    };
+    std::vector<ByFacet> mirrored_by_;
 };
 
 extern template class GhostWalls<2>;

@@ -36,7 +36,7 @@ void PanelGrid<D>::Cell::clear() {
     corner.clear();
     corner_copy.clear();
     for (Scalars& values : sight) values.clear();
-    convex_room = wet = false;
+    convex_room = one_patch = wet = false;
 }
 
 template <int D>
@@ -125,21 +125,39 @@ void PanelGrid<D>::fill_sight(Cell& cell, const Panels<D>& panels) const {
 }
 
 template <int D>
+bool PanelGrid<D>::turns_little(const Cell& cell, const Panels<D>& panels) {
+    Vec<D> mean = Vec<D>::Zero();
+    for (const int panel : cell.panel) mean += panels.normal[std::size_t(panel)];
+    const double least = 0.71 * mean.norm();
+    return std::all_of(cell.panel.begin(), cell.panel.end(),
+                       [&](int panel) { return panels.normal[std::size_t(panel)].dot(mean) > least; });
+}
+
+template <int D>
+void PanelGrid<D>::gather(const Cell& cell, const Panels<D>& panels, const Vec<D>& x, Cell& nearby) const {
+    nearby.clear();
+    for (std::size_t entry = 0; entry < cell.sight[0].size(); ++entry) {
+        const auto k = std::size_t(cell.panel[entry]);
+        const double near = reach_ + radius_[k];
+        Vec<D> from = x - panels.centroid[k];
+        if (cell.copy[entry] != 0) from -= periodic_.shift(cell.copy[entry]);
+        if (from.squaredNorm() > near * near || std::fabs(from.dot(panels.normal[k])) > reach_) continue;
+        nearby.panel.push_back(cell.panel[entry]);
+        nearby.patch.push_back(cell.patch[entry]);
+        nearby.copy.push_back(cell.copy[entry]);
+        for (std::size_t v = 0; v < cell.sight.size(); ++v) nearby.sight[v].push_back(cell.sight[v][entry]);
+    }
+}
+
+template <int D>
 bool PanelGrid<D>::is_convex_room(const Cell& cell, const Panels<D>& panels) const {
     const std::size_t n = cell.panel.size();
     if constexpr (D == 3) {
         // One smooth surface that turns little hides nothing worth the search: a sphere whose normals stay within
         // 45° here bulges by less than a quarter of a spacing between two particles in reach of each other.
-        Vec3 mean = Vec3::Zero();
-        bool one_patch = true;
-        for (std::size_t e = 0; e < n; ++e) {
-            mean += panels.normal[std::size_t(cell.panel[e])];
-            one_patch = one_patch && cell.patch[e] == cell.patch[0];
-        }
-        bool gentle = one_patch;
-        for (std::size_t e = 0; e < n && gentle; ++e)
-            gentle = panels.normal[std::size_t(cell.panel[e])].dot(mean) > 0.71 * mean.norm();
-        if (gentle) return true;
+        const bool one_patch =
+            std::all_of(cell.patch.begin(), cell.patch.end(), [&](int p) { return p == cell.patch[0]; });
+        if (one_patch && turns_little(cell, panels)) return true;
         if (n > most_to_compare) return false;
     }
     // Nothing is hidden where every panel has all the others in front of it or in its own plane.
@@ -178,6 +196,13 @@ bool PanelGrid<D>::build(const Panels<D>& panels, const std::vector<int>& patch,
         return false;
     }
     position_ = panels.position;
+    radius_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        radius_[k] = 0;
+        for (std::size_t v = 0; v < D; ++v)
+            radius_[k] = std::max(radius_[k], (panels.vertex(k, v) - panels.centroid[k]).norm());
+        radius_[k] *= 1 + 1e-9;
+    }
     periodic_ = periodic;
     added_.clear();
     closely_.clear();
@@ -233,6 +258,7 @@ bool PanelGrid<D>::build(const Panels<D>& panels, const std::vector<int>& patch,
     for (std::size_t used = 0; used < used_; ++used) {
         Cell& cell = cells_[used];
         cell.convex_room = is_convex_room(cell, panels);
+        cell.one_patch = std::all_of(cell.patch.begin(), cell.patch.end(), [&](int p) { return p == cell.patch[0]; });
         if (D == 2 || cell.wet || !cell.convex_room) fill_sight(cell, panels);
     }
     built_ = used_;
@@ -283,15 +309,18 @@ void PanelGrid<D>::look_closely_around(const Vec<D>& x, const Panels<D>& panels)
             added_.push_back(index(at));
         }
         Cell& of = cells_[std::size_t(cell)];
-        if (of.convex_room) closely_.push_back(std::size_t(cell));
-        of.convex_room = false;
+        if (of.convex_room || of.one_patch) closely_.push_back({std::size_t(cell), of.convex_room, of.one_patch});
+        of.convex_room = of.one_patch = false;
         fill_sight(of, panels);
     });
 }
 
 template <int D>
 void PanelGrid<D>::look_as_built() {
-    for (const std::size_t cell : closely_) cells_[cell].convex_room = true;
+    for (auto before = closely_.rbegin(); before != closely_.rend(); ++before) {
+        cells_[before->cell].convex_room = before->convex_room;
+        cells_[before->cell].one_patch = before->one_patch;
+    }
     for (const std::size_t place : added_) index_[place] = -1;
     closely_.clear();
     added_.clear();

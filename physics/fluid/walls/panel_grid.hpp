@@ -19,6 +19,7 @@ class PanelGrid {
         // v0).
         std::array<Scalars, D == 2 ? 5 : 12> sight;
         bool convex_room = false;  // nothing here hides anything
+        bool one_patch = false;    // one smooth surface alone, and no ghost sticks out of another
         bool wet = false;          // some panel is wet
 
         void clear();
@@ -46,7 +47,12 @@ class PanelGrid {
     void look_as_built();
     // The first panel that the segment from a to b crosses, panels of one patch left out if wanted. The ends may lie
     // anywhere.
+    // Entries of a cell whose panels may be within reach of x, into `nearby`. In 3D.
+    void gather(const Cell& cell, const Panels<D>& panels, const Vec<D>& x, Cell& nearby) const;
     static Crossing first_crossing(const Cell& cell, const Vec<D>& a, const Vec<D>& b, int patch_left_out = -1);
+
+    // True if the normals stay within 45° of their mean.
+    static bool turns_little(const Cell& cell, const Panels<D>& panels);
 
   private:
     using Index = Eigen::Matrix<int, D, 1>;
@@ -67,10 +73,16 @@ class PanelGrid {
     Index cells_along_ = Index::Zero();
     std::vector<Cell> cells_;  // the first used_ of them; the others keep their memory for the next build
     std::size_t used_ = 0, built_ = 0;
-    std::vector<int> index_;                    // which cell, or -1
-    std::vector<std::size_t> added_, closely_;  // by look_closely_around: places in index_, cells
+    std::vector<int> index_;  // which cell, or -1
+    struct Before {
+        std::size_t cell;
+        bool convex_room, one_patch;
+    };
+    std::vector<std::size_t> added_;  // by look_closely_around: places in index_ …
+    std::vector<Before> closely_;     // … and what cells were before
 
     Periodic<D> periodic_;
+    std::vector<double> radius_;                                           // around each panel's centroid
     std::vector<Vec<D>> position_;                                         // of the panels' vertices, as registered
     Vec<D> covered_low_ = Vec<D>::Zero(), covered_high_ = Vec<D>::Zero();  // particles may be here
 };

@@ -1,6 +1,8 @@
 #include "physics/fluid/walls/visibility.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 
 namespace aquagraph::fluid {
 
@@ -15,6 +17,9 @@ void Visibility<D>::prepare(const Particles<D>& particles, const Panels<D>& pane
     ghosts_ = &ghosts;
     corners_ = &corners;
     patch_ = &patch;
+    tolerance_ = tolerance;
+    static std::atomic<std::uint64_t> prepared{0};
+    prepared_ = ++prepared;
     place_.resize(particles.count);
     cell_.resize(particles.count);
     const double in_front = 1e-3 * tolerance;
@@ -34,8 +39,53 @@ void Visibility<D>::prepare(const Particles<D>& particles, const Panels<D>& pane
 }
 
 template <int D>
+const typename PanelGrid<D>::Cell& Visibility<D>::panels_near(std::size_t i) const {
+    if constexpr (D == 2) {
+        return *cell_[i];
+    } else {
+        thread_local Cell nearby;
+        thread_local std::uint64_t prepared = 0;
+        thread_local std::size_t particle = 0;
+        if (prepared != prepared_ || particle != i) {
+            grid_->gather(*cell_[i], *panels_, place_[i], nearby);
+            prepared = prepared_;
+            particle = i;
+        }
+        return nearby;
+    }
+}
+
+template <int D>
 bool Visibility<D>::sees_everything(std::size_t i) const {
-    return !cell_[i] || cell_[i]->convex_room;
+    if (!cell_[i] || cell_[i]->convex_room) return true;
+    if (D == 2) return false;
+    // As for a whole cell (PanelGrid): one smooth surface that turns little within reach hides nothing.
+    return cell_[i]->one_patch && PanelGrid<D>::turns_little(panels_near(i), *panels_);
+}
+
+// Mirrored by the panel through which it enters, the line of sight must reach the edge's other panel first: at the foot
+// of a column two edges share the floor, and one of them is round the corner.
+template <int D>
+bool Visibility<D>::reaches_other_side(std::size_t i, const Cell& cell, const Ghost& ghost, const Corner<D>& corner,
+                                       int other_panel, int entry_patch,
+                                       const typename PanelGrid<D>::Crossing& crossing) const {
+    const auto other = std::size_t(other_panel);
+    const Vec<D> copy = periodic_->shift(ghost.copy), shift = periodic_->shift(ghost.wall_copy) + copy;
+    Vec<D> parent = place_[ghost.parent] + copy, target;
+    const std::size_t lane = particles_->ghost_begin() + std::size_t(&ghost - ghosts_->data());
+    for (int d = 0; d < D; ++d) target[d] = particles_->x[std::size_t(d)][lane];
+    Vec<D> from = place_[i] + crossing.along * (target - place_[i]),
+           to = parent - 2 * panels_->height(other, parent - shift) * panels_->normal[other];
+    if (std::fabs(panels_->height(other, from - shift)) < 1e-6 * tolerance_) return true;  // through the very edge
+    // Under a body that does not quite touch its floor sight would slip through: look just above the gap.
+    for (const int floor : corner.floor) {
+        if (floor < 0 || (*patch_)[std::size_t(floor)] != entry_patch) continue;
+        const Vec<D> lift = 1.05 * tolerance_ * panels_->normal[std::size_t(floor)];
+        from += lift;
+        to += lift;
+    }
+    const auto next = PanelGrid<D>::first_crossing(cell, from, to, entry_patch);
+    return next.entry < 0 || cell.patch[std::size_t(next.entry)] == (*patch_)[other];
 }
 
 template <int D>
@@ -67,39 +117,40 @@ bool Visibility<D>::sees(std::size_t i, const Cell& cell, std::size_t lane, int*
         if (crossing.entry < 0) return true;
         if (entered < 0) return false;
         if (D == 2 || corner.is_point()) return true;
-        // Mirrored by the panel through which it enters, the line of sight must reach the edge's other panel first: at
-        // the foot of a column two edges share the floor, and one of them is round the corner.
-        const auto other = std::size_t(corner.panel[entered == 0 ? 1 : 0]);
-        const Vec<D> parent = place_[ghost->parent] + copy, shift = periodic_->shift(ghost->wall_copy) + copy,
-                     image = parent - 2 * panels_->height(other, parent - shift) * panels_->normal[other],
-                     foot = place_[i] + crossing.along * (target - place_[i]);
-        const int entry_of = of(*entry);
-        const auto next = PanelGrid<D>::first_crossing(cell, foot, image, entry_of);
-        return next.entry < 0 || cell.patch[std::size_t(next.entry)] == of(int(other));
+        return reaches_other_side(i, cell, *ghost, corner, corner.panel[entered == 0 ? 1 : 0], of(*entry), crossing);
     }
     // Past the end of a wall that just stops, a ghost is seen from the wall's front.
     if (crossing.entry < 0) return in_front_of(ghost->panel);
     if (of(*entry) != of(ghost->panel)) return false;
     // The reflected line of sight, from where it enters the wall to the parent.
-    const Cell* parents = cell_[ghost->parent];
     const Vec<D> foot = place_[i] + crossing.along * (target - place_[i]);
-    return !parents ||
-           PanelGrid<D>::first_crossing(*parents, foot - copy, place_[ghost->parent], of(ghost->panel)).entry < 0;
+    if constexpr (D == 2) {
+        const Cell* parents = cell_[ghost->parent];
+        return !parents ||
+               PanelGrid<D>::first_crossing(*parents, foot - copy, place_[ghost->parent], of(ghost->panel)).entry < 0;
+    } else {
+        // On the other side of a thin body with rounded edges the patch is the same.
+        const auto &entered = panels_->normal[std::size_t(*entry)],
+                   &mirrored = panels_->normal[std::size_t(ghost->panel)];
+        if (entered.dot(mirrored) < 0) return false;
+        return PanelGrid<D>::first_crossing(cell, foot, place_[ghost->parent] + copy, of(ghost->panel)).entry < 0;
+    }
 }
 
 template <int D>
 std::uint8_t Visibility<D>::lanes_seen(std::size_t i, std::size_t cluster, std::uint8_t in_reach) const {
+    const Cell& cell = panels_near(i);
     unsigned seen = 0;
     int entry = -1;
     for (unsigned l = 0; l < W; ++l)
-        if ((in_reach >> l) & 1u) seen |= unsigned(sees(i, *cell_[i], cluster * W + l, &entry)) << l;
+        if ((in_reach >> l) & 1u) seen |= unsigned(sees(i, cell, cluster * W + l, &entry)) << l;
     return std::uint8_t(seen);
 }
 
 template <int D>
 int Visibility<D>::entry_panel(std::size_t i, std::size_t ghost) const {
     int entry = -1;
-    if (!cell_[i] || !sees(i, *cell_[i], particles_->ghost_begin() + ghost, &entry)) return -1;
+    if (!cell_[i] || !sees(i, panels_near(i), particles_->ghost_begin() + ghost, &entry)) return -1;
     return entry;
 }
 

@@ -6,7 +6,9 @@
 //   smooth patch: every place behind a wall is then seen once, however thin the body and at convex corners too.
 //   The way that the wall reflects this line of sight must lead to the ghost's parent without meeting another patch:
 //   water beyond a plate that stands on a floor is not seen in the floor before it.
-// - A corner's ghost is seen through any of the corner's patches, from in front of all of them.
+// - A corner's ghost is seen through any of the corner's patches, from in front of all of them; that of an edge in 3D
+// if
+//   the line of sight, mirrored by one of the edge's panels, reaches the other before anything else.
 // - A ghost that sticks out of the other side of a thin body is seen by nobody there.
 //
 // Particles that have slid behind a panel by less than half a spacing are treated as being just in front of it.
@@ -43,6 +45,8 @@ class Visibility : public PairFilter<D> {
   private:
     using Cell = typename PanelGrid<D>::Cell;
     bool sees(std::size_t i, const Cell& cell, std::size_t lane, int* entry) const;
+    bool reaches_other_side(std::size_t i, const Cell& cell, const Ghost& ghost, const Corner<D>& corner,
+                            int other_panel, int entry_patch, const typename PanelGrid<D>::Crossing& crossing) const;
     const Particles<D>* particles_ = nullptr;
     const Panels<D>* panels_ = nullptr;
     const PanelGrid<D>* grid_ = nullptr;
@@ -50,6 +54,11 @@ class Visibility : public PairFilter<D> {
     const std::vector<Ghost>* ghosts_ = nullptr;
     const std::vector<Corner<D>>* corners_ = nullptr;
     const std::vector<int>* patch_ = nullptr;
+    // The panels within reach of particle i: of its cell in 2D, fewer in 3D. Valid until the thread's next call.
+    const Cell& panels_near(std::size_t i) const;
+
+    double tolerance_ = 0;
+    std::uint64_t prepared_ = 0;  // counts, over all objects: tells a thread that what it has gathered is old
     std::vector<Vec<D>> place_;
     std::vector<const Cell*> cell_;  // of each fluid particle
 };
