@@ -71,13 +71,18 @@ class Driver {
         });
         if (walls) loop(walls->blocks(), [&](std::size_t block) { walls->update_gradients(s, gravity(), block); });
         if (first) transport(loop);
-        loop(fluid.blocks(), [&](std::size_t block) {
-            compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.lanes(block));
-        });
+        fluxes(loop);
         if (fluid.viscosity.dynamic > 0)
             loop(fluid.blocks(), [&](std::size_t block) {
                 add_viscosity(s, fluid.lists, fluid.kernel, fluid.viscosity, fluid.lanes(block));
             });
+    }
+
+    // Of particles and ghosts as they are.
+    void fluxes(BlockLoop loop = serial_loop) {
+        loop(fluid.blocks(), [&](std::size_t block) {
+            compute_fluxes(fluid.particles, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.lanes(block));
+        });
     }
 
     void transport(BlockLoop loop) {

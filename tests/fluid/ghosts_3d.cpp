@@ -189,6 +189,30 @@ TEST_CASE("edges turn the water about their line, corners reflect it through the
     }
 }
 
+TEST_CASE("a lone particle behind a wall is put back, one too deep is found") {
+    for (const bool turned : {false, true}) {  // onto the first or the second triangle of the floor
+        const double along = turned ? 0.7 : 0.3;
+        Particles<3> s = place<3>({{along, 1 - along, 0.01}}, spacing);
+        GhostWalls<3> walls = make_ghost_walls(tank({1, 1, 1}));
+        walls.rebuild(s, spacing, reach, Vec3::Zero());
+        s.x[2][0] = -0.02;
+        s.v[2][0] = -3;
+        s.v[0][0] = 2;
+        s.x[0][0] = 1 - along;  // over the other triangle since the lists were built
+        CHECK(walls.deepest(s).depth == doctest::Approx(0.02));
+        CHECK(walls.hold_back(s, spacing) == 1);
+        CHECK(s.x[2][0] > 0);
+        CHECK(s.v[2][0] == 0);
+        CHECK(s.v[0][0] == 2);
+        s.x[2][0] = -0.08;
+        CHECK(walls.hold_back(s, spacing) == 0);
+        const Escape escape = walls.deepest(s);
+        CHECK(escape.depth == doctest::Approx(0.08));
+        CHECK(escape.particle == 0);
+        CHECK(walls.panels.normal[std::size_t(escape.panel)].z() == doctest::Approx(1));
+    }
+}
+
 namespace {
 
 // A disordered layer between floor and lid, periodic along x and y, that flows along x.

@@ -84,6 +84,38 @@ TEST_CASE("still water in a 3D tank stays still") {
     CHECK(driver.walls->deepest(driver.fluid.particles).depth == 0);
 }
 
+TEST_CASE("momentum: what the walls of a 3D tank take is what the water loses") {
+    const Vec3 size(0.6, 0.5, 0.6);
+    Driver<3> driver = still_tank(Vec3::Zero(), 0.05, size);
+    driver.rebuild();
+    driver.rates(0);
+    auto& s = driver.fluid.particles;
+    // Force on the water, without those ghosts that `gone` picks.
+    const auto force = [&](auto&& gone) {
+        const Scalars volume = s.volume;
+        for (std::size_t g = 0; g < s.ghost_count; ++g)
+            if (gone(position(s, s.ghost_begin() + g))) s.volume[s.ghost_begin() + g] = 0;
+        driver.fluxes();
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = 0; i < s.count; ++i)
+            for (int d = 0; d < 3; ++d) sum[d] += s.mass[i] * s.acceleration[std::size_t(d)][i];
+        s.volume = volume;
+        return sum;
+    };
+    double mass = 0;
+    for (std::size_t i = 0; i < s.count; ++i) mass += s.mass[i];
+    const Vec3 weight(0, 0, -mass * g), all = force([](const Vec3&) { return false; });
+    const auto none = force([](const Vec3&) { return true; });
+    CHECK((none - weight).norm() < 1e-11 * weight.norm());  // between particles nothing is lost
+    CHECK((all - none + weight).norm() < 0.01 * weight.norm());
+    // The left wall bears ½ ρ g H² B.
+    const double load = 0.5 * 1000 * g * size.z() * size.z() * size.y();
+    const Vec3 left = all - force([](const Vec3& x) { return x.x() < 0; });
+    CAPTURE(left.x() / load);
+    CHECK(left.x() == doctest::Approx(load).epsilon(0.03));
+    CHECK(std::fabs(left.y()) < 1e-9 * load);
+}
+
 TEST_CASE("a 3D tank that travels with its water is a tank at rest") {
     const Vec3 size(0.5, 0.4, 0.3), travel(1.7, -0.9, 0.4);
     Driver<3> still = still_tank(Vec3::Zero(), 0.05, size), moving = still_tank(travel, 0.05, size);
