@@ -1,5 +1,6 @@
 #include "engine/model.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/solid_parts.hpp"
@@ -55,6 +56,20 @@ fluid::Fluid<D> make_fluid(const io::Scene& scene) {
     return made;
 }
 
+// Nobody leaves a domain in a direction along which it is periodic.
+template <int D>
+void make_periodic(const io::Scene& scene, fluid::Periodic<D>& periodic, fluid::Domain<D>& domain) {
+    for (std::size_t d = 0; d < D; ++d) {
+        const std::string direction(1, "xyz"[d]);
+        if (std::find(scene.periodic.begin(), scene.periodic.end(), direction) == scene.periodic.end()) continue;
+        periodic.along[d] = true;
+        periodic.low[int(d)] = domain.min[d];
+        periodic.high[int(d)] = domain.max[d];
+        domain.max[d] = std::numeric_limits<double>::infinity();
+        domain.min[d] = -domain.max[d];
+    }
+}
+
 }  // namespace
 
 template <int D>
@@ -65,7 +80,11 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     auto model = std::make_unique<Model<D>>();
     model->clock.end = scene.end_time;
     model->fluid = make_fluid<D>(scene);
-    if (!scene.walls.empty() || scene.solid) add_walls(scene, model->walls.emplace().panels);
+    if (!scene.walls.empty() || scene.solid || !scene.periodic.empty()) {
+        fluid::GhostWalls<D>& walls = model->walls.emplace();
+        add_walls(scene, walls.panels);
+        make_periodic(scene, walls.periodic, model->fluid->domain);
+    }
     if constexpr (D == 2) {
         if (scene.solid) {
             model->solid = make_solid(scene);

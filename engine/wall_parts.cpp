@@ -58,6 +58,8 @@ void add_walls(const io::Scene& scene, fluid::Panels<D>& panels) {
             panels.add_wall(wall.name, points, wall.closed, no_slip);
         else
             panels.add_wall(wall.name, points, triangles_of_face(scene, w, points), no_slip);
+        for (fluid::Panel<D>& panel : panels.panels)
+            if (panel.wall == int(panels.names.size()) - 1) panel.symmetry = wall.slip == io::Slip::symmetry;
     }
 }
 

@@ -117,12 +117,15 @@ nlohmann::json to_json(const Scene& scene) {
         {"output",
          {{"frame_interval", scene.output.frame_interval}, {"history_interval", scene.output.history_interval}}}};
     json["domain"]["edge"] = scene.edge == DomainEdge::closed ? "closed" : "open";
+    json["domain"]["periodic"] = scene.periodic;
     if (scene.fluid) json["fluid"] = to_json(*scene.fluid, scene.dimension);
     for (const WallScene& wall : scene.walls)
         json["wall"].push_back({{"name", wall.name},
                                 {"points", wall.points},
                                 {"closed", wall.closed},
-                                {"slip", wall.slip == Slip::free ? "free" : "none"}});
+                                {"slip", wall.slip == Slip::free   ? "free"
+                                         : wall.slip == Slip::none ? "none"
+                                                                   : "symmetry"}});
     if (scene.solid) json["solid"] = to_json(*scene.solid);
     for (const ProbeScene& probe : scene.probes) json["probe"].push_back(to_json(probe));
     if (scene.fluid && scene.solid)

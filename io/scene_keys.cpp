@@ -57,6 +57,8 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"domain", "max", K::point, true, "m", any, "", "", "upper right corner"},
     {"domain", "edge", K::choice, false, "", any, "closed open", "closed",
      "closed: a particle that leaves stops the run; open: it is taken out and counted"},
+    {"domain", "periodic", K::texts, false, "", any, "", "none",
+     "directions, as [\"x\"], in which what leaves on one side comes back on the other; flat walls may end there"},
 
     {"fluid", "spacing", K::number, true, "m", positive, "", "", "Δx, distance between particles"},
     {"fluid", "density", K::number, false, "kg/m³", positive, "", "1000", "ρ0, at zero pressure"},
@@ -121,7 +123,8 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"wall", "points", K::points, true, "m", any, "", "",
      "no two in a row the same; in 2D two or more, in 3D three or more"},
     {"wall", "closed", K::boolean, false, "", any, "", "false", "joins the last point to the first; 2D only"},
-    {"wall", "slip", K::choice, false, "", any, "free none", "free", "along the wall: free slip or no slip"},
+    {"wall", "slip", K::choice, false, "", any, "free none symmetry", "free",
+     "along the wall: free slip or no slip; symmetry: free slip, and no body that bears a load"},
 
     {"probe", "name", K::text, true, "", any, "", "", "letters, digits and _, beginning with a letter; each once"},
     {"probe", "quantity", K::choice, true, "", any, "pressure velocity level", "", "what is measured"},

@@ -43,6 +43,7 @@ class Filler {
         document_.take("domain.min", scene_.domain.min);
         document_.take("domain.max", scene_.domain.max);
         choose("domain.edge", scene_.edge, {{"closed", DomainEdge::closed}, {"open", DomainEdge::open}});
+        document_.take("domain.periodic", scene_.periodic);
         if (document_.count("fluid")) fluid(scene_.fluid.emplace());
         walls();
         if (document_.count("solid")) solid(scene_.solid.emplace());
@@ -116,7 +117,7 @@ class Filler {
             document_.take(at + "name", wall.name);
             document_.take(at + "points", wall.points);
             document_.take(at + "closed", wall.closed);
-            choose(at + "slip", wall.slip, {{"free", Slip::free}, {"none", Slip::none}});
+            choose(at + "slip", wall.slip, {{"free", Slip::free}, {"none", Slip::none}, {"symmetry", Slip::symmetry}});
         }
     }
 
