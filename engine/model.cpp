@@ -1,5 +1,8 @@
 #include "engine/model.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "engine/initial_fields.hpp"
 #include "engine/solid_parts.hpp"
 #include "engine/wall_parts.hpp"
@@ -45,6 +48,20 @@ fluid::Fluid<D> make_fluid(const io::Scene& scene) {
     return made;
 }
 
+// Nobody leaves a domain in a direction along which it is periodic.
+template <int D>
+void make_periodic(const io::Scene& scene, fluid::Periodic<D>& periodic, fluid::Domain<D>& domain) {
+    for (std::size_t d = 0; d < D; ++d) {
+        const std::string direction(1, "xyz"[d]);
+        if (std::find(scene.periodic.begin(), scene.periodic.end(), direction) == scene.periodic.end()) continue;
+        periodic.along[d] = true;
+        periodic.low[int(d)] = domain.min[d];
+        periodic.high[int(d)] = domain.max[d];
+        domain.max[d] = std::numeric_limits<double>::infinity();
+        domain.min[d] = -domain.max[d];
+    }
+}
+
 }  // namespace
 
 template <int D>
@@ -59,9 +76,11 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     set_initial_fields(*model->fluid, scene);
     if (const auto& force = scene.fluid->central_force) model->central_force = {force->centre.as<D>(), force->rate};
     if (scene.fluid->driving_force) model->driving_force = scene.fluid->driving_force->as<D>();
-    if (!scene.walls.empty() || scene.solid) {
-        add_walls(scene, model->walls.emplace().panels);
-        model->moving = moving_walls(scene, model->walls->panels);
+    if (!scene.walls.empty() || scene.solid || !scene.periodic.empty()) {
+        fluid::GhostWalls<D>& walls = model->walls.emplace();
+        add_walls(scene, walls.panels);
+        make_periodic(scene, walls.periodic, model->fluid->domain);
+        model->moving = moving_walls(scene, walls.panels);
     }
     if constexpr (D == 2) {
         if (scene.solid) {

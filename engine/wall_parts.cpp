@@ -79,12 +79,13 @@ void add_walls(const io::Scene& scene, fluid::Panels<D>& panels) {
         const bool no_slip = wall.slip == io::Slip::none;
         if (points.empty()) {
             add_shape(scene, w, panels);
-            continue;
-        }
-        if constexpr (D == 2)
+        } else if constexpr (D == 2) {
             panels.add_wall(wall.name, points, wall.closed, no_slip);
-        else
+        } else {
             panels.add_wall(wall.name, points, triangles_of_face(scene, w, points), no_slip);
+        }
+        for (fluid::Panel<D>& panel : panels.panels)
+            if (panel.wall == int(panels.names.size()) - 1) panel.symmetry = wall.slip == io::Slip::symmetry;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "io/report_parts.hpp"
+#include "io/scene_words.hpp"
 #include "io/scheme_text.hpp"
 
 namespace aquagraph::io {
@@ -215,7 +216,10 @@ std::string parameter_tables(const Scene& scene) {
     std::vector<Row> rows{
         {"simulated time", fmt::format("{:g} s", scene.end_time)},
         {"gravity", fmt::format("{} m/s²", point(scene.gravity))},
-        {"domain", fmt::format("{}, {}", box(scene.domain), scene.edge == DomainEdge::open ? "open" : "closed")}};
+        {"domain",
+         fmt::format(
+             "{}, {}{}", box(scene.domain), scene.edge == DomainEdge::open ? "open" : "closed",
+             scene.periodic.empty() ? "" : fmt::format(", periodic along {}", fmt::join(scene.periodic, ", ")))}};
     if (scene.fluid && scene.solid) {
         rows.emplace_back("coupling",
                           scene.coupling.algorithm == CouplingAlgorithm::cps ? "CPS (parallel)" : "CSS (sequential)");
@@ -224,7 +228,9 @@ std::string parameter_tables(const Scene& scene) {
     }
     for (const WallScene& wall : scene.walls)
         rows.emplace_back("wall", fmt::format("{}, {}{}, {}", wall.name, shape(wall), wall.motion ? ", moves" : "",
-                                              wall.slip == Slip::free ? "free slip" : "no slip"));
+                                              wall.slip == Slip::free   ? "free slip"
+                                              : wall.slip == Slip::none ? "no slip"
+                                                                        : "symmetry"));
     return text + table("Run", rows) + "</div>\n";
 }
 

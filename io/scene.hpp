@@ -20,7 +20,7 @@ struct SourcePosition {
 };
 
 enum class Reconstruction { muscl, none };
-enum class Slip { free, none };
+enum class Slip { free, none, symmetry };
 enum class DomainEdge { closed, open };
 
 // How pairs of particles act on each other; [fluid.scheme].
@@ -192,6 +192,7 @@ struct Scene {
     Point gravity{0, -9.81};               // [m/s²]; in 3D {0, 0, -9.81}
     Box domain;                            // particles outside it have left
     DomainEdge edge = DomainEdge::closed;  // closed: leaving it is an error; open: they are taken out and counted
+    std::vector<std::string> periodic;     // directions, "x", "y", "z", in which the domain repeats itself
     std::optional<FluidScene> fluid;
     std::vector<WallScene> walls;
     std::optional<SolidScene> solid;

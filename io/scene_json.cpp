@@ -53,7 +53,7 @@ Json to_json(const MotionScene& motion, int dimension) {
 }
 
 Json to_json(const WallScene& wall) {
-    Json json = {{"name", wall.name}, {"slip", wall.slip == Slip::free ? "free" : "none"}, {"force", wall.force}};
+    Json json = {{"name", wall.name}, {"slip", word(slip_words, wall.slip)}, {"force", wall.force}};
     int dimension = 3;
     if (wall.box) {
         json["box"] = to_json(wall.box->box);
@@ -230,6 +230,7 @@ nlohmann::json to_json(const Scene& scene) {
                    {"history_interval", scene.output.history_interval},
                    {"energy_ledger", scene.output.energy_ledger}}}};
     json["domain"]["edge"] = scene.edge == DomainEdge::closed ? "closed" : "open";
+    json["domain"]["periodic"] = scene.periodic;
     if (scene.fluid) json["fluid"] = to_json(*scene.fluid, scene.dimension);
     for (const WallScene& wall : scene.walls) json["wall"].push_back(to_json(wall));
     if (scene.solid) json["solid"] = to_json(*scene.solid);

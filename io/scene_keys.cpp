@@ -96,6 +96,8 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"domain", "max", K::point, true, "m", any, "", "", "upper right corner"},
     {"domain", "edge", K::choice, false, "", any, "closed open", "closed",
      "closed: a particle that leaves stops the run; open: it is taken out and counted"},
+    {"domain", "periodic", K::texts, false, "", any, "", "none",
+     "directions, as [\"x\"], in which what leaves on one side comes back on the other; flat walls may end there"},
 
     {"fluid", "spacing", K::number, true, "m", positive, "", "", "Δx, distance between particles"},
     {"fluid", "density", K::number, false, "kg/m³", positive, "", "1000", "ρ0, at zero pressure"},
@@ -254,7 +256,8 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"wall", "points", K::points, false, "m", any, "", "none",
      "no two in a row the same; in 2D two or more, in 3D the corners of a flat convex face"},
     {"wall", "closed", K::boolean, false, "", any, "", "false", "joins the last point to the first; 2D only"},
-    {"wall", "slip", K::choice, false, "", any, "free none", "free", "along the wall: free slip or no slip"},
+    {"wall", "slip", K::choice, false, "", any, "free none symmetry", "free",
+     "along the wall: free slip or no slip; symmetry: free slip, and no body that bears a load"},
     {"wall", "force", K::boolean, false, "", any, "", "false",
      "writes the water's force on the wall into history.csv, as NAME_force_x and so on"},
 

@@ -46,6 +46,7 @@ class Filler {
         document_.take("domain.min", scene_.domain.min);
         document_.take("domain.max", scene_.domain.max);
         choose("domain.edge", scene_.edge, {{"closed", DomainEdge::closed}, {"open", DomainEdge::open}});
+        document_.take("domain.periodic", scene_.periodic);
         if (document_.count("fluid")) fluid(scene_.fluid.emplace());
         walls();
         if (document_.count("solid")) solid(scene_.solid.emplace());
@@ -133,7 +134,7 @@ class Filler {
             document_.take(at + "points", wall.points);
             document_.take(at + "closed", wall.closed);
             document_.take(at + "force", wall.force);
-            choose(at + "slip", wall.slip, {{"free", Slip::free}, {"none", Slip::none}});
+            choose(at + "slip", wall.slip, slip_words);
             read_wall_geometry(document_, fmt::format("wall[{}]", i), scene_.file.parent_path(), wall);
         }
     }

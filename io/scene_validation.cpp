@@ -142,6 +142,35 @@ class Validation {
         }
     }
 
+    void periodic(bool domain_known) {
+        for (std::size_t k = 0; k < scene_.periodic.size(); ++k) {
+            const std::string& direction = scene_.periodic[k];
+            const auto found = std::find(axis.begin(), axis.end(), direction);
+            const auto d = static_cast<std::size_t>(found - axis.begin());
+            if (d >= static_cast<std::size_t>(scene_.dimension)) {
+                complaints_.add("domain.periodic",
+                                fmt::format("'{}' is no direction of a {}D scene", direction, scene_.dimension),
+                                scene_.dimension == 2 ? "periodic = [\"x\"], [\"y\"] or both"
+                                                      : "periodic = a list of \"x\", \"y\" and \"z\"");
+                return;
+            }
+            if (scene_.gravity[d] != 0)
+                complaints_.add("domain.periodic",
+                                fmt::format("gravity acts along {}, and pressure would jump at the seam", direction),
+                                "let gravity act across the periodic directions");
+            if (!domain_known || !scene_.fluid || complaints_.touch("fluid")) continue;
+            // The neighbour lists reach a quarter further than the kernel.
+            const double reach = 1.25 * scene_.fluid->support_ratio * scene_.fluid->spacing,
+                         period = scene_.domain.max[d] - scene_.domain.min[d];
+            if (!(period > reach))
+                complaints_.add("domain.periodic",
+                                fmt::format("the period along {} is {} m, but must be longer than {} m, 1.25 "
+                                            "support_ratio × spacing",
+                                            direction, period, reach),
+                                "make the domain longer or the spacing smaller");
+        }
+    }
+
     void walls() {
         for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
             const std::string key = element("wall", i, "points");
@@ -361,6 +390,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.parts();
     if (complaints.positions.contains("domain") && !complaints.touch("domain"))
         validation.ordered(scene.domain, "domain");
+    validation.periodic(complaints.positions.contains("domain") && !complaints.touch("domain"));
     if (scene.dimension == 2) validation.solid();
     validation.fluid_scheme();
     validation.fluid_boxes();

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "physics/fluid/choices.hpp"
+#include "io/scene.hpp"
 
 namespace aquagraph::io {
 
@@ -29,6 +29,8 @@ inline constexpr Words<fluid::ViscousOperator, 2> viscous_operator_words{
     {{"monaghan_gingold", fluid::ViscousOperator::monaghan_gingold}, {"morris", fluid::ViscousOperator::morris}}};
 inline constexpr Words<fluid::Transport, 3> transport_words{
     {{"none", fluid::Transport::none}, {"x_sph", fluid::Transport::x_sph}, {"shifting", fluid::Transport::shifting}}};
+
+inline constexpr Words<Slip, 3> slip_words{{{"free", Slip::free}, {"none", Slip::none}, {"symmetry", Slip::symmetry}}};
 
 // The word for a meaning.
 template <class E, std::size_t n>

@@ -23,8 +23,9 @@ Task driving_force(fluid::Fluid<D>& fluid, const std::array<double, D>& a, const
             .reads = {resource::fluid_lists},
             .writes = {resource::fluid_rates},
             .body = [&fluid, &a] {
-                for_each_block(fluid.blocks(),
-                               [&](std::size_t block) { add_driving_force<D>(fluid.particles, a, fluid.lanes(block)); });
+                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                    add_driving_force<D>(fluid.particles, a, fluid.lanes(block));
+                });
             }};
 }
 

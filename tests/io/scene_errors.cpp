@@ -238,6 +238,13 @@ TEST_CASE("boxes") {
     CHECK(error_of(with(sound, "[[wall]]", "[[fluid.box]]\nmin = [0.0, 0.5]\nmax = [1.0, 0.6]\n[[wall]]")) == "");
 }
 
+TEST_CASE("periodic directions") {
+    const std::string_view max = "max = [2.0, 2.0]\n";
+    CHECK(error_of(with(sound, max, "max = [2.0, 2.0]\nperiodic = [\"x\"]\n")) == "");
+    expect(max, "max = [2.0, 2.0]\nperiodic = [\"z\"]\n", 8, 12, "'z' is no direction of a 2D scene", "periodic = [");
+    expect(max, "max = [2.0, 2.0]\nperiodic = [\"y\"]\n", 8, 12, "gravity acts along y", "across the periodic");
+}
+
 TEST_CASE("walls") {
     expect("points = [[0.0, 0.0], [1.0, 0.0]]", "points = [[0.0, 0.0]]", 16, 10,
            "a wall needs at least 2 points, but this one has 1", "on the left of the way");

@@ -26,7 +26,8 @@ struct Panel {
     std::array<int, D> vertex;
     int wall;  // index into names
     bool no_slip = false;
-    bool wet = false;  // belongs to a solid that wants to know its load
+    bool wet = false;       // belongs to a solid that wants to know its load
+    bool symmetry = false;  // a plane of symmetry: free slip, not a body, so nobody asks for a load on it
 };
 
 // Two panels that share a side: a vertex in 2D, an edge in 3D, or two in the same place. In 2D panel[0] ends where
