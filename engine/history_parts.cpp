@@ -66,9 +66,10 @@ HistoryPart energy_balance(const fluid::Fluid<D>& fluid) {
                 const fluid::FluidEnergies state = total_energies(fluid);
                 const double now = state.kinetic + state.potential;
                 if (!initial) initial = now;
+                const double lost = ledger.lost + ledger.sum.displacement;
                 const double residual = now - *initial + ledger.sum.compression + ledger.sum.dissipation +
-                                        ledger.sum.viscous + ledger.lost - ledger.sum.walls;
-                row.insert(row.end(), {ledger.sum.compression, ledger.sum.dissipation, ledger.sum.viscous, ledger.lost,
+                                        ledger.sum.viscous + lost - ledger.sum.walls;
+                row.insert(row.end(), {ledger.sum.compression, ledger.sum.dissipation, ledger.sum.viscous, lost,
                                        ledger.sum.walls, residual});
             }};
 }

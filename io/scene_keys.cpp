@@ -123,7 +123,7 @@ constexpr auto keys = std::to_array<SceneKey>({
      "",
      {0, 1, true, false},
      "",
-     "rk4: 0.375, rk3: 0.25, verlet: 0.1",
+     "rk4: 0.375, rk3: 0.35, verlet: 0.15",
      "K of Δt = K R/c"},
     {"fluid", "initial_pressure", K::choice, false, "", any, "hydrostatic zero", "hydrostatic", "pressure at t = 0"},
     {"fluid", "surface_level", K::number, false, "m", any, "", "highest top of the water",
