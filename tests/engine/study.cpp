@@ -221,11 +221,3 @@ TEST_CASE("mistakes in a study are named with their place") {
     Bench no_label(matrix + "error = \"drag\"\n");
     CHECK_THROWS_WITH_AS(no_label.run(no_label.options()), doctest::Contains("drag"), std::invalid_argument);
 }
-
-TEST_CASE("the shipped studies are sound") {
-    const std::filesystem::path folder = AQUAGRAPH_SOURCE_DIR "/benchmarks";
-    for (const char* name : {"fluid.study.toml"}) {
-        CAPTURE(name);
-        CHECK(engine::runs_of(io::read_study(folder / name), false, {}, AQUAGRAPH_PROGRAM, 1).size() > 10);
-    }
-}
