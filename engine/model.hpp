@@ -12,6 +12,7 @@
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/walls/motion.hpp"
+#include "physics/fluid/walls/wall_forces.hpp"
 #include "physics/solid/solver.hpp"
 
 namespace aquagraph::engine {
@@ -24,7 +25,8 @@ struct Model {
     std::optional<fluid::CentralForce<D>> central_force;
     std::optional<std::array<double, D>> driving_force;  // [m/s²]
     std::optional<fluid::GhostWalls<D>> walls;
-    fluid::MovingWalls<D> moving;  // those with a prescribed motion
+    fluid::MovingWalls<D> moving;                // those with a prescribed motion
+    std::vector<fluid::WallWork<D>> wall_works;  // of walls whose force is asked for, where energies are kept
     std::optional<solid::Solver> solid;
     std::optional<coupling::Interface> interface;
     Clock clock;
