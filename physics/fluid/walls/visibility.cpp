@@ -17,6 +17,7 @@ void Visibility<D>::prepare(const Particles<D>& particles, const Panels<D>& pane
     ghosts_ = &ghosts;
     corners_ = &corners;
     patch_ = &patch;
+    find_blunt_edges();
     tolerance_ = tolerance;
     static std::atomic<std::uint64_t> prepared{0};
     prepared_ = ++prepared;
@@ -101,7 +102,7 @@ bool Visibility<D>::sees(std::size_t i, const Cell& cell, std::size_t lane, int*
         for (int d = 0; d < D; ++d) target[d] = particles_->x[std::size_t(d)][lane];
     const auto crossing = PanelGrid<D>::first_crossing(cell, place_[i], target);
     *entry = crossing.entry < 0 ? -1 : cell.panel[std::size_t(crossing.entry)];
-    if (!ghost || ghost->is_image()) return crossing.entry < 0;
+    if (!ghost || ghost->is_image()) return crossing.entry < 0 || goes_round_an_edge(cell, *entry, target, place_[i]);
 
     const auto of = [&](int panel) { return (*patch_)[std::size_t(panel)]; };
     const Vec<D> copy = periodic_->shift(ghost->copy),
@@ -145,6 +146,33 @@ std::uint8_t Visibility<D>::lanes_seen(std::size_t i, std::size_t cluster, std::
     for (unsigned l = 0; l < W; ++l)
         if ((in_reach >> l) & 1u) seen |= unsigned(sees(i, cell, cluster * W + l, &entry)) << l;
     return std::uint8_t(seen);
+}
+
+// What lies beyond a blunt edge is water of the same body: a line of sight that only cuts the edge off, in through one
+// of its two patches and out through the other, is not held up, or the support there would have a hole in the water.
+template <int D>
+bool Visibility<D>::goes_round_an_edge(const Cell& cell, int entry, const Vec<D>& target, const Vec<D>& from) const {
+    if (blunt_edges_.empty()) return false;
+    const auto exit = PanelGrid<D>::first_crossing(cell, target, from);
+    if (exit.entry < 0) return false;
+    const int a = (*patch_)[std::size_t(entry)], b = (*patch_)[std::size_t(cell.panel[std::size_t(exit.entry)])];
+    return std::binary_search(blunt_edges_.begin(), blunt_edges_.end(), std::pair(std::min(a, b), std::max(a, b)));
+}
+
+template <int D>
+void Visibility<D>::find_blunt_edges() {
+    blunt_edges_.clear();
+    for (const Joint<D>& joint : panels_->joints) {
+        const auto k = std::size_t(joint.panel[0]), l = std::size_t(joint.panel[1]);
+        const int a = (*patch_)[k], b = (*patch_)[l];
+        // Convex: the neighbour falls back behind the panel. Blunt: the body fills more than 60°.
+        if (a == b || panels_->height(k, panels_->centroid[l]) >= 0 ||
+            panels_->normal[k].dot(panels_->normal[l]) < -0.5 - 1e-9)
+            continue;
+        blunt_edges_.emplace_back(std::min(a, b), std::max(a, b));
+    }
+    std::sort(blunt_edges_.begin(), blunt_edges_.end());
+    blunt_edges_.erase(std::unique(blunt_edges_.begin(), blunt_edges_.end()), blunt_edges_.end());
 }
 
 template <int D>

@@ -1,6 +1,8 @@
 // Which pairs a wall keeps apart.
 //
-// - Two fluid particles do not see each other through a panel (the two sides of a thin body). Periodic images of fluid
+// - Two fluid particles do not see each other through a panel (the two sides of a thin body), unless their line of
+// sight
+//   only cuts off an edge of a body that fills more than 60° there: the support goes round it. Periodic images of fluid
 //   particles are seen like fluid.
 // - A ghost that panel k has mirrored is seen by those particles whose line of sight to it enters the wall through k's
 //   smooth patch: every place behind a wall is then seen once, however thin the body and at convex corners too.
@@ -47,6 +49,8 @@ class Visibility : public PairFilter<D> {
     bool sees(std::size_t i, const Cell& cell, std::size_t lane, int* entry) const;
     bool reaches_other_side(std::size_t i, const Cell& cell, const Ghost& ghost, const Corner<D>& corner,
                             int other_panel, int entry_patch, const typename PanelGrid<D>::Crossing& crossing) const;
+    bool goes_round_an_edge(const Cell& cell, int entry, const Vec<D>& target, const Vec<D>& from) const;
+    void find_blunt_edges();
     const Particles<D>* particles_ = nullptr;
     const Panels<D>* panels_ = nullptr;
     const PanelGrid<D>* grid_ = nullptr;
@@ -57,6 +61,7 @@ class Visibility : public PairFilter<D> {
     // The panels within reach of particle i: of its cell in 2D, fewer in 3D. Valid until the thread's next call.
     const Cell& panels_near(std::size_t i) const;
 
+    std::vector<std::pair<int, int>> blunt_edges_;  // pairs of patches, the smaller first, ascending
     double tolerance_ = 0;
     std::uint64_t prepared_ = 0;  // counts, over all objects: tells a thread that what it has gathered is old
     std::vector<Vec<D>> place_;
