@@ -105,6 +105,7 @@ class Filler {
         choose("fluid.viscosity.operator", fluid.viscous_operator, viscous_operator_words);
         choose("fluid.transport.name", fluid.transport, transport_words);
         document_.take("fluid.transport.epsilon", fluid.x_sph);
+        choose("fluid.walls", fluid.walls, {{"ghosts", WallMethod::ghosts}, {"normal_flux", WallMethod::normal_flux}});
         choose("fluid.initial_pressure", fluid.initial_pressure,
                {{"hydrostatic", InitialPressure::hydrostatic}, {"zero", InitialPressure::zero}});
         if (double level = 0; document_.take("fluid.surface_level", level)) fluid.surface_level = level;

@@ -101,6 +101,29 @@ class Validation {
                             "choose [fluid.scheme] name = \"riemann_ale\", or no shifting");
     }
 
+    // What walls of normal fluxes do not go with.
+    void wall_method() {
+        if (!scene_.fluid || scene_.fluid->walls != WallMethod::normal_flux || complaints_.touch("fluid.walls")) return;
+        const FluidScene& fluid = *scene_.fluid;
+        const std::string help = "take [fluid] walls = \"ghosts\"";
+        if (scene_.solid)
+            complaints_.add("fluid.walls", "walls of normal fluxes do not load a solid", help + ", or take [solid] out");
+        if (!scene_.periodic.empty())
+            complaints_.add("fluid.walls", "walls of normal fluxes have no images in a periodic domain",
+                            help + ", or take [domain] periodic out");
+        if (fluid.scheme.name == fluid::Scheme::riemann_ale)
+            complaints_.add("fluid.walls", "walls of normal fluxes are for schemes that keep each particle's mass",
+                            help + ", or another [fluid.scheme]");
+        if (scene_.output.energy_ledger)
+            complaints_.add("fluid.walls", "the energy ledger does not know the work of walls of normal fluxes",
+                            help + ", or energy_ledger = false");
+        if (fluid.viscosity > 0 && fluid.viscous_operator != fluid::ViscousOperator::morris)
+            complaints_.add("fluid.walls",
+                            "Monaghan and Gingold's viscosity lacks the part behind walls of normal fluxes: it would "
+                            "not be consistent next to them",
+                            "take [fluid.viscosity] operator = \"morris\", or [fluid] walls = \"ghosts\"");
+    }
+
     // Whether max lies beyond min; without it no other check of the box makes sense.
     bool ordered(const Box& box, const std::string& key) {
         if (complaints_.touch(key + ".min") || complaints_.touch(key + ".max")) return false;
@@ -393,6 +416,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.periodic(complaints.positions.contains("domain") && !complaints.touch("domain"));
     if (scene.dimension == 2) validation.solid();
     validation.fluid_scheme();
+    validation.wall_method();
     validation.fluid_boxes();
     validation.walls();
     validate_wall_shapes(scene, complaints);

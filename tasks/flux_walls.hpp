@@ -3,21 +3,25 @@
 #pragma once
 #include "physics/clock.hpp"
 #include "physics/fluid/fluid.hpp"
+#include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
 
-// As tasks/neighbours.hpp; which particles see which parts of the walls is decided here as well.
+// Moves walls with a prescribed motion to `fraction` of the present step (0 … 1).
 template <int D>
-Task neighbour_search(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const Clock& clock,
-                      const std::string& label);
+Task wall_motion(fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>& moving, const Clock& clock,
+                 double fraction, const std::string& label);
 template <int D>
 Task wall_gamma(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
 // After the gradients.
 template <int D>
 Task wall_gradients(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
-// After the fluxes.
+// Between fluxes (and viscosity) and wall_fluxes, which divide all of them by γ.
+template <int D>
+Task wall_friction(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label);
+// After the fluxes, before body forces.
 template <int D>
 Task wall_fluxes(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
 // After the last stage: NormalFluxWalls::hold_back.

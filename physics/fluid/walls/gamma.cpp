@@ -37,7 +37,7 @@ std::array<typename KernelMass<D>::KernelPiece, 1> pieces_of(const WendlandC2<D>
 }  // namespace
 
 template <int D>
-KernelMass<D>::KernelMass(const WendlandC2<D>& kernel) : KernelMass(kernel.radius(), pieces_of(kernel)) {}
+KernelMass<D>::KernelMass(const Kernel<D>& kernel) : KernelMass(kernel.radius(), pieces_of(kernel)) {}
 
 template <int D>
 double KernelMass<D>::operator()(double r) const {

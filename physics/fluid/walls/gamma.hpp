@@ -41,7 +41,7 @@ struct KernelMass {
         std::array<double, 6> w;
     };
     KernelMass(double radius, std::span<const KernelPiece> pieces);
-    explicit KernelMass(const WendlandC2<D>& kernel);
+    explicit KernelMass(const Kernel<D>& kernel);
 
     double operator()(double r) const;  // H(r)
 };

@@ -121,7 +121,7 @@ constexpr double tolerated_disorder = 0.15;  // of |Σ n W A|
 }  // namespace
 
 template <int D>
-void NormalFluxWalls<D>::compute_gamma(const Particles<D>& particles, const WendlandC2<D>& kernel, std::size_t block) {
+void NormalFluxWalls<D>::compute_gamma(const Particles<D>& particles, const Kernel<D>& kernel, std::size_t block) {
     NearBlock& b = near_[block];
     const KernelMass<D> mass(kernel);
     b.floored = 0;
@@ -146,7 +146,7 @@ void NormalFluxWalls<D>::compute_gamma(const Particles<D>& particles, const Wend
 
 template <int D>
 void NormalFluxWalls<D>::complete_gradients(Particles<D>& s, const NeighbourLists<D>& lists,
-                                            const WendlandC2<D>& kernel, const FluxParameters& parameters,
+                                            const Kernel<D>& kernel, const FluxParameters& parameters,
                                             std::size_t block) {
     NearBlock& b = near_[block];
     const PointFields<D> fields(points);
@@ -211,7 +211,7 @@ void NormalFluxWalls<D>::complete_gradients(Particles<D>& s, const NeighbourList
 }
 
 template <int D>
-void NormalFluxWalls<D>::add_fluxes(Particles<D>& s, const WendlandC2<D>& kernel, const FluxParameters& parameters,
+void NormalFluxWalls<D>::add_fluxes(Particles<D>& s, const Kernel<D>& kernel, const FluxParameters& parameters,
                                     double reference_density, std::size_t block) {
     NearBlock& b = near_[block];
     const PointFields<D> fields(points);
@@ -252,15 +252,15 @@ void NormalFluxWalls<D>::add_fluxes(Particles<D>& s, const WendlandC2<D>& kernel
     }
 }
 
-template void NormalFluxWalls<2>::compute_gamma(const Particles<2>&, const WendlandC2<2>&, std::size_t);
-template void NormalFluxWalls<3>::compute_gamma(const Particles<3>&, const WendlandC2<3>&, std::size_t);
-template void NormalFluxWalls<2>::complete_gradients(Particles<2>&, const NeighbourLists<2>&, const WendlandC2<2>&,
+template void NormalFluxWalls<2>::compute_gamma(const Particles<2>&, const Kernel<2>&, std::size_t);
+template void NormalFluxWalls<3>::compute_gamma(const Particles<3>&, const Kernel<3>&, std::size_t);
+template void NormalFluxWalls<2>::complete_gradients(Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&,
                                                      const FluxParameters&, std::size_t);
-template void NormalFluxWalls<3>::complete_gradients(Particles<3>&, const NeighbourLists<3>&, const WendlandC2<3>&,
+template void NormalFluxWalls<3>::complete_gradients(Particles<3>&, const NeighbourLists<3>&, const Kernel<3>&,
                                                      const FluxParameters&, std::size_t);
-template void NormalFluxWalls<2>::add_fluxes(Particles<2>&, const WendlandC2<2>&, const FluxParameters&, double,
+template void NormalFluxWalls<2>::add_fluxes(Particles<2>&, const Kernel<2>&, const FluxParameters&, double,
                                              std::size_t);
-template void NormalFluxWalls<3>::add_fluxes(Particles<3>&, const WendlandC2<3>&, const FluxParameters&, double,
+template void NormalFluxWalls<3>::add_fluxes(Particles<3>&, const Kernel<3>&, const FluxParameters&, double,
                                              std::size_t);
 
 }  // namespace aquagraph::fluid

@@ -39,7 +39,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/fluid/riemann_flux.hpp"
+#include "physics/fluid/fluxes.hpp"
 #include "physics/fluid/walls/escape.hpp"
 #include "physics/fluid/walls/gamma.hpp"
 #include "physics/fluid/walls/sight.hpp"
@@ -70,31 +70,31 @@ class NormalFluxWalls {
 
     // The four passes of a substep, over the near-wall particles of one block of particles each.
     // γ, from positions of particles and panels.
-    void compute_gamma(const Particles<D>& particles, const WendlandC2<D>& kernel, std::size_t block);
+    void compute_gamma(const Particles<D>& particles, const Kernel<D>& kernel, std::size_t block);
     // After the gradients: completes fullness and gradients, and computes C0 and C1. Reads γ.
-    void complete_gradients(Particles<D>& particles, const NeighbourLists<D>& lists, const WendlandC2<D>& kernel,
+    void complete_gradients(Particles<D>& particles, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
                             const FluxParameters& parameters, std::size_t block);
     // After the pair fluxes: adds the wall's and divides both by γ.
-    void add_fluxes(Particles<D>& particles, const WendlandC2<D>& kernel, const FluxParameters& parameters,
+    void add_fluxes(Particles<D>& particles, const Kernel<D>& kernel, const FluxParameters& parameters,
                     double reference_density, std::size_t block);
     // For walls that water sticks to (Panel::no_slip), before add_fluxes, which divides by γ: the shear stress
     // µ ∂v/∂n ≈ µ (v_i - v_w)/h of every wall point (Ferrand et al. 2013), h the distance from its panel, at least
     // half a spacing:   m_i dv_i/dt -= ω_i Σ_s 2 µ (v_i - v_w)_tangential/h W_is A_s.
     // Rates of decay next to a wall reach about 60 µ/(ρ R²): explicit steps need Δt < 0.04 ρ R²/µ.
-    void add_shear(Particles<D>& particles, const WendlandC2<D>& kernel, double viscosity, double spacing,
+    void add_shear(Particles<D>& particles, const Kernel<D>& kernel, double viscosity, double spacing,
                    std::size_t block) const;
 
     // Forces of the fluid on the vertices of all panels [N] ([N/m] in 2D), by linear shape functions at the points;
     // added to vertex_forces, one entry per vertex, serially and in a fixed order.
     // Pressure: Σ_s p_s n_s A_s with p_s the mean of what the particles around find there, by their shares W_is ω_i;
     // points that are hardly wet (Σ W_is ω_i < 0.1) in proportion. Accurate panel by panel.
-    void add_pressure_forces(const Particles<D>& particles, const WendlandC2<D>& kernel,
+    void add_pressure_forces(const Particles<D>& particles, const Kernel<D>& kernel,
                              const FluxParameters& parameters, std::vector<Vec<D>>& vertex_forces);
     // Reaction, after add_fluxes: all that a particle's rate holds beside gravity and the symmetric pair forces, which
     // cancel. The total is minus the rate of change of the fluid's momentum without gravity, to rounding. On each point
     // ω_i (p_i + p_s) n_s W_is A_s; the rest, which the division by γ_i leaves, on all points that the particle sees,
     // by weight. Where walls meet, one carries a part of what belongs to the other, on a strip of about R/10.
-    void add_reactions(const Particles<D>& particles, const WendlandC2<D>& kernel, const FluxParameters& parameters,
+    void add_reactions(const Particles<D>& particles, const Kernel<D>& kernel, const FluxParameters& parameters,
                        std::vector<Vec<D>>& vertex_forces) const;
 
     // Puts particles that have come to lie behind a panel back onto it and takes their velocity towards it
@@ -106,6 +106,7 @@ class NormalFluxWalls {
     // γ of every lane that holds a fluid particle: 1 away from walls.
     double gamma(std::size_t i) const { return gamma_[i]; }
     std::size_t near_wall_count() const;
+    bool has_near_wall(std::size_t block) const { return !near_[block].near.empty(); }
     // Particles whose γ stood at its floor when it was last computed.
     std::size_t floored() const;
     std::uint64_t pairs(std::size_t block) const { return near_[block].pairs; }  // of particles with points

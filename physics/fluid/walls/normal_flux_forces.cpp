@@ -6,7 +6,7 @@
 namespace aquagraph::fluid {
 
 template <int D>
-void NormalFluxWalls<D>::add_shear(Particles<D>& s, const WendlandC2<D>& kernel, double viscosity, double spacing,
+void NormalFluxWalls<D>::add_shear(Particles<D>& s, const Kernel<D>& kernel, double viscosity, double spacing,
                                    std::size_t block) const {
     const NearBlock& b = near_[block];
     for (std::size_t k = 0; k < b.near.size(); ++k) {
@@ -42,7 +42,7 @@ void NormalFluxWalls<D>::add_to_vertices(std::size_t point, const Vec<D>& force,
 }
 
 template <int D>
-void NormalFluxWalls<D>::add_reactions(const Particles<D>& s, const WendlandC2<D>& kernel,
+void NormalFluxWalls<D>::add_reactions(const Particles<D>& s, const Kernel<D>& kernel,
                                        const FluxParameters& parameters, std::vector<Vec<D>>& vertex_forces) const {
     const PointFields<D> fields(points);
     for (const NearBlock& b : near_)
@@ -78,7 +78,7 @@ void NormalFluxWalls<D>::add_reactions(const Particles<D>& s, const WendlandC2<D
 }
 
 template <int D>
-void NormalFluxWalls<D>::add_pressure_forces(const Particles<D>& s, const WendlandC2<D>& kernel,
+void NormalFluxWalls<D>::add_pressure_forces(const Particles<D>& s, const Kernel<D>& kernel,
                                              const FluxParameters& parameters, std::vector<Vec<D>>& vertex_forces) {
     const PointFields<D> fields(points);
     wall_pressure_.assign(points.size(), 0.0);
@@ -111,15 +111,15 @@ void NormalFluxWalls<D>::add_pressure_forces(const Particles<D>& s, const Wendla
 
 template void NormalFluxWalls<2>::add_to_vertices(std::size_t, const Vec<2>&, std::vector<Vec<2>>&) const;
 template void NormalFluxWalls<3>::add_to_vertices(std::size_t, const Vec<3>&, std::vector<Vec<3>>&) const;
-template void NormalFluxWalls<2>::add_shear(Particles<2>&, const WendlandC2<2>&, double, double, std::size_t) const;
-template void NormalFluxWalls<3>::add_shear(Particles<3>&, const WendlandC2<3>&, double, double, std::size_t) const;
-template void NormalFluxWalls<2>::add_reactions(const Particles<2>&, const WendlandC2<2>&, const FluxParameters&,
+template void NormalFluxWalls<2>::add_shear(Particles<2>&, const Kernel<2>&, double, double, std::size_t) const;
+template void NormalFluxWalls<3>::add_shear(Particles<3>&, const Kernel<3>&, double, double, std::size_t) const;
+template void NormalFluxWalls<2>::add_reactions(const Particles<2>&, const Kernel<2>&, const FluxParameters&,
                                                 std::vector<Vec<2>>&) const;
-template void NormalFluxWalls<3>::add_reactions(const Particles<3>&, const WendlandC2<3>&, const FluxParameters&,
+template void NormalFluxWalls<3>::add_reactions(const Particles<3>&, const Kernel<3>&, const FluxParameters&,
                                                 std::vector<Vec<3>>&) const;
-template void NormalFluxWalls<2>::add_pressure_forces(const Particles<2>&, const WendlandC2<2>&, const FluxParameters&,
+template void NormalFluxWalls<2>::add_pressure_forces(const Particles<2>&, const Kernel<2>&, const FluxParameters&,
                                                       std::vector<Vec<2>>&);
-template void NormalFluxWalls<3>::add_pressure_forces(const Particles<3>&, const WendlandC2<3>&, const FluxParameters&,
+template void NormalFluxWalls<3>::add_pressure_forces(const Particles<3>&, const Kernel<3>&, const FluxParameters&,
                                                       std::vector<Vec<3>>&);
 
 }  // namespace aquagraph::fluid

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "physics/fluid/pair_loop.hpp"
-#include "physics/fluid/runge_kutta.hpp"
+#include "physics/fluid/time_integration.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
 
 namespace aquagraph::fluid {
