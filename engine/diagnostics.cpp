@@ -85,8 +85,9 @@ class WallForcesTask {
     fluid::Scalars fullness_;
 };
 
-// The same with walls of normal fluxes: the pressure at their points, and friction where water sticks to them. It is what
-// every panel bears by itself; the reaction to the scheme's momentum balance would mix walls that meet in a corner.
+// The same with walls of normal fluxes: the pressure at their points, and friction where water sticks to them. It is
+// what every panel bears by itself; the reaction to the scheme's momentum balance would mix walls that meet in a
+// corner.
 template <int D>
 class FluxWallForcesTask {
   public:

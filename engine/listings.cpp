@@ -61,8 +61,7 @@ class Listing {
             add(tasks::integration_stage(fluid, model_.clock, stage));
         }
         group(label + ", end");
-        if (moving() && fluid.integration.stage_time(fluid.integration.stages() - 1) < 1)
-            wall_motion(1, "end");
+        if (moving() && fluid.integration.stage_time(fluid.integration.stages() - 1) < 1) wall_motion(1, "end");
         if (model_.walls) add(tasks::wall_contact(fluid, *model_.walls, label));
         if (model_.flux_walls) add(tasks::wall_contact(fluid, *model_.flux_walls, label));
         add(tasks::advance_clock(model_.clock, label));

@@ -90,7 +90,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
         add_walls(scene, walls.panels);
         model->moving = moving_walls(scene, walls.panels);
         if (!model->fluid->flux.is_riemann()) walls.pressure = fluid::WallPressure::extrapolated;
-        model->fluid->wall_friction = fluid::wall_friction_limit(walls.panels, scene.fluid->support_ratio);
+        model->fluid->wall_friction = fluid::friction_factor(walls.panels, scene.fluid->support_ratio);
         settle(scene, walls.panels, model->moving);
     } else if (!scene.walls.empty() || scene.solid || !scene.periodic.empty()) {
         fluid::GhostWalls<D>& walls = model->walls.emplace();

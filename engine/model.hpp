@@ -23,10 +23,10 @@ struct Model {
     std::optional<fluid::Fluid<D>> fluid;
     std::vector<FilledBody> water;  // how it was filled
     std::optional<fluid::CentralForce<D>> central_force;
-    std::optional<std::array<double, D>> driving_force;  // [m/s²]
+    std::optional<std::array<double, D>> driving_force;   // [m/s²]
     std::optional<fluid::GhostWalls<D>> walls;            // ghosts …
     std::optional<fluid::NormalFluxWalls<D>> flux_walls;  // … or normal fluxes
-    fluid::MovingWalls<D> moving;  // those with a prescribed motion
+    fluid::MovingWalls<D> moving;                         // those with a prescribed motion
     std::optional<solid::Solver> solid;
     std::optional<coupling::Interface> interface;
     Clock clock;

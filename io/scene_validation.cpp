@@ -107,7 +107,8 @@ class Validation {
         const FluidScene& fluid = *scene_.fluid;
         const std::string help = "take [fluid] walls = \"ghosts\"";
         if (scene_.solid)
-            complaints_.add("fluid.walls", "walls of normal fluxes do not load a solid", help + ", or take [solid] out");
+            complaints_.add("fluid.walls", "walls of normal fluxes do not load a solid",
+                            help + ", or take [solid] out");
         if (!scene_.periodic.empty())
             complaints_.add("fluid.walls", "walls of normal fluxes have no images in a periodic domain",
                             help + ", or take [domain] periodic out");

@@ -25,9 +25,7 @@ struct FluxParameters {
     bool reads_pressure_gradient() const {
         return scheme == Scheme::delta_sph || (muscl && scheme != Scheme::artificial_viscosity);
     }
-    bool reads_velocity_gradient() const {
-        return muscl && is_riemann();
-    }
+    bool reads_velocity_gradient() const { return muscl && is_riemann(); }
 };
 
 // Writes acceleration and deviation_rate of these fluid particles (of one block); with mass exchange also mass_rate,

@@ -148,6 +148,7 @@ void check_flat_walls() {
 
 TEST_CASE("a flat wall takes the kernel's cap, whichever the kernel") {
     check_flat_walls<WendlandC2>();
+    check_flat_walls<CubicSpline>();
 }
 
 TEST_CASE("2D: the integral over the angle, by quadrature") {

@@ -274,7 +274,7 @@ TEST_CASE("a piston: pressure of the weak shock, as theory and ghosts have it, a
     MESSAGE("piston: normal fluxes " << mean_pressure(driver.fluid.particles) / expected << ", ghosts "
                                      << mean_pressure(ghosts.fluid.particles) / expected);
     std::vector<Vec2> forces(driver.walls.panels.position.size(), Vec2::Zero());
-    driver.walls.add_pressure_forces(driver.fluid.particles, driver.fluid.kernel, driver.fluid.flux, forces);
+    driver.walls.add_pressure_forces(driver.fluid.particles, driver.fluid.kernel, driver.fluid.flux, 0, forces);
     CHECK((forces[0] + forces[1]).x() == doctest::Approx(-expected * height).epsilon(0.005));
     CHECK(std::fabs((forces[0] + forces[1]).y()) < 1e-12 * expected);
 }
@@ -389,7 +389,7 @@ TEST_CASE("the wall's fluxes, particle by particle, point by point") {
     std::vector<double> rate(s.deviation_rate.begin(), s.deviation_rate.end());
     const Vectors<2> acceleration = s.acceleration;
     for (std::size_t block = 0; block < driver.fluid.blocks(); ++block)
-        compute_fluxes(s, driver.fluid.lists, kernel, flux, water.reference_density, driver.fluid.lanes(block));
+        compute_fluxes(s, driver.fluid.lists, kernel, flux, water, driver.fluid.lanes(block));
 
     const KernelMass<2> mass(kernel);
     double worst = 0;

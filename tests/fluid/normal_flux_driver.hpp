@@ -25,15 +25,7 @@ class FluxDriver {
 
     void rebuild(BlockLoop loop = serial_loop) {
         if (motion) motion(walls.panels, time);
-        auto& s = fluid.particles;
-        fluid.reorder.apply(s, fluid.order.sort(s.x, s.count, fluid.spacing));
-        for (std::size_t block = 0; block < fluid.blocks(); ++block) update_state(s, fluid.tait, fluid.lanes(block));
-        for (std::size_t d = 0; d < D; ++d)
-            std::copy(s.x[d].begin(), s.x[d].begin() + long(s.count), s.x_built[d].begin());
-        fluid.runge_kutta.resize(s);
-        walls.rebuild(s, fluid.spacing, fluid.lists.reach());
-        fluid.search.build(s, fluid.lists, &walls.sight, loop);
-        ++fluid.rebuilds;
+        rebuild_lists(fluid, walls, loop);
         built_ = walls.panels.position;
     }
 
@@ -46,21 +38,25 @@ class FluxDriver {
         loop(fluid.blocks(), [&](std::size_t block) { walls.compute_gamma(s, fluid.kernel, block); });
         floored += walls.floored();
         loop(fluid.blocks(), [&](std::size_t block) {
-            compute_gradients(s, fluid.lists, fluid.kernel, fluid.lanes(block));
+            compute_gradients(s, fluid.lists, fluid.kernel, fluid.lanes(block), fluid.gradients());
             walls.complete_gradients(s, fluid.lists, fluid.kernel, fluid.flux, block);
         });
         loop(fluid.blocks(), [&](std::size_t block) {
-            compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait.reference_density, fluid.lanes(block));
+            compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.lanes(block));
+            if (fluid.viscosity.dynamic > 0) {
+                add_viscosity(s, fluid.lists, fluid.kernel, fluid.viscosity, fluid.lanes(block));
+                walls.add_shear(s, fluid.kernel, fluid.viscosity.dynamic, fluid.spacing, block);
+            }
             walls.add_fluxes(s, fluid.kernel, fluid.flux, fluid.tait.reference_density, block);
         });
     }
 
     void step(double dt, BlockLoop loop = serial_loop) {
         if (!lists_hold(dt)) rebuild(loop);
-        for (int stage = 0; stage < stages; ++stage) {
-            rates(time + stage_time[stage] * dt, loop);
+        for (int stage = 0; stage < fluid.integration.stages(); ++stage) {
+            rates(time + fluid.integration.stage_time(stage) * dt, loop);
             loop(fluid.blocks(), [&](std::size_t block) {
-                advance_stage(fluid.particles, fluid.runge_kutta, fluid.tait, stage, dt, fluid.lanes(block));
+                advance_stage(fluid.particles, fluid.integration, fluid.tait, stage, dt, fluid.lanes(block));
             });
         }
         fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing);
@@ -70,8 +66,8 @@ class FluxDriver {
     double largest_step() const {
         StepLimits limits;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
-            limits =
-                combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block)));
+            limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
+                                                 fluid.viscosity_of_step()));
         return limits.step();
     }
 

@@ -34,10 +34,17 @@ std::array<typename KernelMass<D>::KernelPiece, 1> pieces_of(const WendlandC2<D>
     const double b = (D == 2 ? 7 : 10.5) / std::numbers::pi;
     return {{{1.0, {b, 0, -10 * b, 20 * b, -15 * b, 4 * b}}}};
 }
+// β (1/3 - 2q² + 2q³) and ⅔ β (1-q)³ = ⅔ β (1 - 3q + 3q² - q³)
+template <int D>
+std::array<typename KernelMass<D>::KernelPiece, 2> pieces_of(const CubicSpline<D>&) {
+    const double b = (D == 2 ? 120.0 / 7 : 24) / std::numbers::pi, b2 = 2 * b / 3;
+    return {{{0.5, {b / 3, 0, -2 * b, 2 * b, 0, 0}}, {1.0, {b2, -3 * b2, 3 * b2, -b2, 0, 0}}}};
+}
 }  // namespace
 
 template <int D>
-KernelMass<D>::KernelMass(const Kernel<D>& kernel) : KernelMass(kernel.radius(), pieces_of(kernel)) {}
+KernelMass<D>::KernelMass(const Kernel<D>& kernel)
+    : KernelMass(kernel.visit([](const auto& k) { return KernelMass(k.radius(), pieces_of(k)); })) {}
 
 template <int D>
 double KernelMass<D>::operator()(double r) const {

@@ -12,18 +12,18 @@ namespace aquagraph::fluid {
 
 namespace {
 
-// Σ_j ∇W ω, Σ_j ∇W ⊗ x_ij ω, Σ_j (φ_j - φ_i) ∇W ω of one particle.
-template <int D>
+// Σ_j W ω, Σ_j ∇W ω, Σ_j ∇W ⊗ x_ij ω, Σ_j (φ_j - φ_i) ∇W ω of one particle.
+template <int D, class Kernel>
 struct MomentPass {
     static constexpr int fields = D + 1;  // p and v
-    const double* x[D];
-    const double* field[fields];
-    const double* volume;
-    double inverse_radius, slope_factor, value_factor;
+    Kernel kernel;
+    const double* x[D] = {};
+    const double* field[fields] = {};
+    const double* volume = nullptr;
     struct Result {
         double shepard, G[D], M[D][D], f[fields][D];
     };
-    Result* result;
+    Result* result = nullptr;
 
     struct Own {
         double x[D], field[fields];
@@ -43,9 +43,9 @@ struct MomentPass {
             dx[d] = x[d][j] - i.x[d];
             r2 += dx[d] * dx[d];
         }
-        const double q = std::sqrt(r2) * inverse_radius, u = std::max(0.0, 1 - q), volume_seen = volume[j] * seen;
-        const double w = slope_factor * u * u * u * volume_seen;
-        sum.shepard[l] += (r2 > 0 ? value_factor : 0.0) * (u * u) * (u * u) * (1 + 4 * q) * volume_seen;
+        const double r = std::sqrt(r2), volume_seen = volume[j] * seen;
+        const double w = kernel.slope(r * kernel.inverse_radius()) * volume_seen;
+        sum.shepard[l] += kernel.value(r) * volume_seen;  // its own share is among them
         for (int a = 0; a < D; ++a) {
             const double wa = w * dx[a];
             sum.G[a][l] += wa;
@@ -145,22 +145,25 @@ void NormalFluxWalls<D>::compute_gamma(const Particles<D>& particles, const Kern
 }
 
 template <int D>
-void NormalFluxWalls<D>::complete_gradients(Particles<D>& s, const NeighbourLists<D>& lists,
-                                            const Kernel<D>& kernel, const FluxParameters& parameters,
-                                            std::size_t block) {
+void NormalFluxWalls<D>::complete_gradients(Particles<D>& s, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
+                                            const FluxParameters& parameters, std::size_t block) {
+    kernel.visit([&](const auto& k) { complete_with(s, lists, k, parameters, block); });
+}
+
+template <int D>
+template <class K>
+void NormalFluxWalls<D>::complete_with(Particles<D>& s, const NeighbourLists<D>& lists, const K& kernel,
+                                       const FluxParameters& parameters, std::size_t block) {
     NearBlock& b = near_[block];
     const PointFields<D> fields(points);
-    typename MomentPass<D>::Result sum;
-    MomentPass<D> pass;
+    typename MomentPass<D, K>::Result sum;
+    MomentPass<D, K> pass{.kernel = kernel};
     pass.volume = s.volume.data();
     pass.field[0] = s.p.data();
     for (int d = 0; d < D; ++d) {
         pass.x[d] = s.x[d].data();
         pass.field[d + 1] = s.v[d].data();
     }
-    pass.inverse_radius = 1 / kernel.radius();
-    pass.slope_factor = kernel.slope_factor();
-    pass.value_factor = kernel.value(0);
     pass.result = &sum;
     for (std::size_t k = 0; k < b.near.size(); ++k) {
         const std::size_t i = b.near[k].particle;
@@ -181,8 +184,7 @@ void NormalFluxWalls<D>::complete_gradients(Particles<D>& s, const NeighbourList
         Mat<D> completed;
         const double own = smallest_eigenvalue<D>(M, B), full = smallest_eigenvalue<D>(M + missing, completed);
         // Past the end of a wall the moment of the shadow is not known, but the kernel's mass is.
-        const double filled =
-            b.near[k].shadowed ? std::max(full, (sum.shepard + pass.value_factor * s.volume[i]) / gamma_[i]) : full;
+        const double filled = b.near[k].shadowed ? std::max(full, sum.shepard / gamma_[i]) : full;
         s.fullness[i] = filled;
         // The gradient behind the wall: hydrostatic, and none of the velocity.
         Vec<D> weight;
@@ -213,6 +215,13 @@ void NormalFluxWalls<D>::complete_gradients(Particles<D>& s, const NeighbourList
 template <int D>
 void NormalFluxWalls<D>::add_fluxes(Particles<D>& s, const Kernel<D>& kernel, const FluxParameters& parameters,
                                     double reference_density, std::size_t block) {
+    kernel.visit([&](const auto& k) { add_fluxes_with(s, k, parameters, reference_density, block); });
+}
+
+template <int D>
+template <class K>
+void NormalFluxWalls<D>::add_fluxes_with(Particles<D>& s, const K& kernel, const FluxParameters& parameters,
+                                         double reference_density, std::size_t block) {
     NearBlock& b = near_[block];
     const PointFields<D> fields(points);
     for (std::size_t k = 0; k < b.near.size(); ++k) {

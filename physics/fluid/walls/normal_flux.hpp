@@ -53,6 +53,16 @@ inline constexpr double least_gamma = 0.05;
 // pairs have no Riemann problem (δ-SPH, artificial viscosity), p_s = p_i + ρ_i g·x_is.
 enum class WallPressure { riemann, extrapolated };
 
+// By how much friction on no-slip panels decays faster than the 16 µ/(ρ R²) that the viscous time step 0.125 ρ R²/µ
+// allows for (its rate times the step then is 2): next to a flat wall Σ_s W_is A_s = 1.5/R and γ = ½, which makes
+// 6 µ/(ρ R h), and pairs add 15 µ/(ρ R²); h is at least half a spacing. 1 where no panel is no-slip.
+template <int D>
+double friction_factor(const Panels<D>& panels, double support_ratio) {
+    for (const Panel<D>& panel : panels.panels)
+        if (panel.no_slip) return (12 * support_ratio + 15) / 16;
+    return 1;
+}
+
 template <int D>
 class NormalFluxWalls {
   public:
@@ -64,7 +74,7 @@ class NormalFluxWalls {
 
     // Cuts the panels, decides which particles see which points within `reach`, and takes all ghosts away. Particles up
     // to half a spacing behind a panel still count as in front of it.
-    void rebuild(Particles<D>& particles, double spacing, double reach);
+    void rebuild(Particles<D>& particles, double spacing, double reach, BlockLoop loop);
     // Panels and points after the vertices have moved.
     void update_geometry();
 
@@ -80,16 +90,17 @@ class NormalFluxWalls {
     // For walls that water sticks to (Panel::no_slip), before add_fluxes, which divides by γ: the shear stress
     // µ ∂v/∂n ≈ µ (v_i - v_w)/h of every wall point (Ferrand et al. 2013), h the distance from its panel, at least
     // half a spacing:   m_i dv_i/dt -= ω_i Σ_s 2 µ (v_i - v_w)_tangential/h W_is A_s.
-    // Rates of decay next to a wall reach about 60 µ/(ρ R²): explicit steps need Δt < 0.04 ρ R²/µ.
+    // Explicit steps must be shorter by friction_factor().
     void add_shear(Particles<D>& particles, const Kernel<D>& kernel, double viscosity, double spacing,
                    std::size_t block) const;
 
     // Forces of the fluid on the vertices of all panels [N] ([N/m] in 2D), by linear shape functions at the points;
     // added to vertex_forces, one entry per vertex, serially and in a fixed order.
     // Pressure: Σ_s p_s n_s A_s with p_s the mean of what the particles around find there, by their shares W_is ω_i;
-    // points that are hardly wet (Σ W_is ω_i < 0.1) in proportion. Accurate panel by panel.
-    void add_pressure_forces(const Particles<D>& particles, const Kernel<D>& kernel,
-                             const FluxParameters& parameters, std::vector<Vec<D>>& vertex_forces);
+    // points that are hardly wet (Σ W_is ω_i < 0.1) in proportion. Where water sticks to the wall (viscosity µ > 0)
+    // also the friction µ (v_i - v_w)_tangential/h, averaged likewise. Accurate panel by panel.
+    void add_pressure_forces(const Particles<D>& particles, const Kernel<D>& kernel, const FluxParameters& parameters,
+                             double viscosity, std::vector<Vec<D>>& vertex_forces);
     // Reaction, after add_fluxes: all that a particle's rate holds beside gravity and the symmetric pair forces, which
     // cancel. The total is minus the rate of change of the fluid's momentum without gravity, to rounding. On each point
     // ω_i (p_i + p_s) n_s W_is A_s; the rest, which the division by γ_i leaves, on all points that the particle sees,
@@ -131,6 +142,23 @@ class NormalFluxWalls {
     struct Range {
         std::size_t begin, end;
     };
+    template <class K>
+    void complete_with(Particles<D>& particles, const NeighbourLists<D>& lists, const K& kernel,
+                       const FluxParameters& parameters, std::size_t block);
+    template <class K>
+    void add_fluxes_with(Particles<D>& particles, const K& kernel, const FluxParameters& parameters,
+                         double reference_density, std::size_t block);
+    template <class K>
+    void add_shear_with(Particles<D>& particles, const K& kernel, double viscosity, double spacing,
+                        std::size_t block) const;
+    template <class K>
+    void add_reactions_with(const Particles<D>& particles, const K& kernel, const FluxParameters& parameters,
+                            std::vector<Vec<D>>& vertex_forces) const;
+    template <class K>
+    void add_pressure_forces_with(const Particles<D>& particles, const K& kernel, const FluxParameters& parameters,
+                                  double viscosity, std::vector<Vec<D>>& vertex_forces);
+    // (v_i - v_s)_tangential/h of a particle and a point of a no-slip panel [1/s].
+    Vec<D> shear_rate(const Particles<D>& particles, std::size_t i, std::size_t point, double spacing) const;
     static Range points_of(const NearBlock& block, std::size_t k) {
         return {k == 0 ? 0 : block.near[k - 1].point_end, block.near[k].point_end};
     }
@@ -158,6 +186,7 @@ class NormalFluxWalls {
     Scalars gamma_;
     double spacing_ = 0;
     std::vector<double> wall_pressure_, wetness_;  // of points
+    std::vector<Vec<D>> shear_;
     static constexpr double least_wetness = 0.1;
     Bins<D> bins_;  // of points
     std::vector<std::uint32_t> bin_end_, bin_point_;

@@ -14,7 +14,7 @@ void NormalFluxWalls<D>::update_geometry() {
 }
 
 template <int D>
-void NormalFluxWalls<D>::rebuild(Particles<D>& particles, double spacing, double reach) {
+void NormalFluxWalls<D>::rebuild(Particles<D>& particles, double spacing, double reach, BlockLoop loop) {
     spacing_ = spacing;
     panels.update_geometry();
     points.cut(panels, spacing);
@@ -31,7 +31,7 @@ void NormalFluxWalls<D>::rebuild(Particles<D>& particles, double spacing, double
         for (const int k : panels.joints[j].panel) side_[side_end_[std::size_t(k)]++] = std::uint32_t(j);
     gamma_.assign(particles.clusters() * W, 1.0);
     near_.resize(particles.blocks());
-    for (std::size_t block = 0; block < near_.size(); ++block) collect(particles, reach, block);
+    loop(near_.size(), [&](std::size_t block) { collect(particles, reach, block); });
 }
 
 template <int D>

@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "physics/fluid/neighbour_lists.hpp"
+#include "physics/fluid/neighbour_search.hpp"
 #include "physics/fluid/walls/panels.hpp"
 
 namespace aquagraph::fluid {
