@@ -38,14 +38,21 @@ HistoryPart interface_force(const io::Scene& scene, const coupling::Interface& i
             }};
 }
 
+// Kinetic and potential, of a central force too.
+template <int D>
+fluid::FluidEnergies energies_of(const Model<D>& model) {
+    const fluid::Fluid<D>& fluid = *model.fluid;
+    fluid::FluidEnergies sum = total_energies(fluid);
+    for (std::size_t block = 0; model.central_force && block < fluid.blocks(); ++block)
+        sum.potential += potential_energy(fluid.particles, *model.central_force, fluid.lanes(block));
+    return sum;
+}
+
 template <int D>
 HistoryPart fluid_energies(const Model<D>& model) {
     return {{{"fluid_kinetic_energy", per_depth<D>("J")}, {"fluid_potential_energy", per_depth<D>("J")}},
             [&model](std::vector<double>& row) {
-                const fluid::Fluid<D>& fluid = *model.fluid;
-                fluid::FluidEnergies sum = total_energies(fluid);
-                for (std::size_t block = 0; model.central_force && block < fluid.blocks(); ++block)
-                    sum.potential += potential_energy(fluid.particles, *model.central_force, fluid.lanes(block));
+                const fluid::FluidEnergies sum = energies_of(model);
                 row.insert(row.end(), {sum.kinetic, sum.potential});
             }};
 }
@@ -53,7 +60,7 @@ HistoryPart fluid_energies(const Model<D>& model) {
 // The balance: kinetic + potential + compression + dissipated + viscous + lost energy - its initial value = wall work,
 // and the residual is what this misses.
 template <int D>
-HistoryPart energy_balance(const fluid::Fluid<D>& fluid) {
+HistoryPart energy_balance(const Model<D>& model) {
     const std::string unit = per_depth<D>("J");
     return {{{"fluid_compression_energy", unit},
              {"fluid_dissipated_energy", unit},
@@ -61,14 +68,15 @@ HistoryPart energy_balance(const fluid::Fluid<D>& fluid) {
              {"fluid_lost_energy", unit},
              {"fluid_wall_work", unit},
              {"fluid_energy_residual", unit}},
-            [&fluid, initial = std::optional<double>()](std::vector<double>& row) mutable {
-                const fluid::EnergyLedger& ledger = fluid.ledger;
-                const fluid::FluidEnergies state = total_energies(fluid);
+            [&model, initial = std::optional<double>()](std::vector<double>& row) mutable {
+                const fluid::EnergyLedger& ledger = model.fluid->ledger;
+                const fluid::FluidEnergies state = energies_of(model);
                 const double now = state.kinetic + state.potential;
                 if (!initial) initial = now;
+                const double lost = ledger.lost + ledger.sum.displacement;
                 const double residual = now - *initial + ledger.sum.compression + ledger.sum.dissipation +
-                                        ledger.sum.viscous + ledger.lost - ledger.sum.walls;
-                row.insert(row.end(), {ledger.sum.compression, ledger.sum.dissipation, ledger.sum.viscous, ledger.lost,
+                                        ledger.sum.viscous + lost - ledger.sum.walls;
+                row.insert(row.end(), {ledger.sum.compression, ledger.sum.dissipation, ledger.sum.viscous, lost,
                                        ledger.sum.walls, residual});
             }};
 }
@@ -115,7 +123,7 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
     if (model.solid) parts.push_back(tracks(scene, *model.solid));
     if (model.interface) parts.push_back(interface_force(scene, *model.interface));
     if (model.fluid) parts.push_back(fluid_energies(model));
-    if (model.fluid && model.fluid->ledger.kept) parts.push_back(energy_balance(*model.fluid));
+    if (model.fluid && model.fluid->ledger.kept) parts.push_back(energy_balance(model));
     if (model.solid) parts.push_back(solid_energies(*model.solid));
     if (model.fluid) parts.push_back(particle_figures(*model.fluid));
     if (model.fluid && !FieldColumns(scene).columns().empty()) parts.push_back(fields(scene, model));

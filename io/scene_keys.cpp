@@ -123,7 +123,7 @@ constexpr auto keys = std::to_array<SceneKey>({
      "",
      {0, 1, true, false},
      "",
-     "rk4: 0.375, rk3: 0.25, verlet: 0.1",
+     "rk4: 0.375, rk3: 0.35, verlet: 0.15",
      "K of Δt = K R/c"},
     {"fluid", "walls", K::choice, false, "", any, "ghosts normal_flux", "ghosts",
      "particles mirrored through the walls, or fluxes through their surface; the latter neither with a solid, a "

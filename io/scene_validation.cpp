@@ -80,6 +80,9 @@ class Validation {
                 fmt::format("the exact Riemann solver is for water, polytropic_exponent = 7, but it is {:g}",
                             fluid.polytropic_exponent),
                 "take \"acoustic\", which serves every exponent");
+        if (scene_.output.energy_ledger && fluid.driving_force)
+            complaints_.add("output.energy_ledger", "the energy ledger has no column for the work of a driving force",
+                            "take [fluid] driving_force out, or energy_ledger = false");
         if (scene_.output.energy_ledger && fluid.scheme.name == fluid::Scheme::riemann_ale)
             complaints_.add("output.energy_ledger", "the energy ledger is for schemes that keep each particle's mass",
                             "choose another [fluid.scheme], or energy_ledger = false");

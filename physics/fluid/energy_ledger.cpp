@@ -90,6 +90,7 @@ EnergyRates& EnergyRates::add(double weight, const EnergyRates& rates) {
     dissipation += weight * rates.dissipation;
     viscous += weight * rates.viscous;
     walls += weight * rates.walls;
+    displacement += weight * rates.displacement;
     return *this;
 }
 
@@ -127,6 +128,8 @@ EnergyRates energy_rates(const Particles<D>& s, const NeighbourLists<D>& lists, 
         rates.compression += s.p[i] * s.volume[i] / (tait.reference_density + s.deviation[i]) * s.deviation_rate[i];
         rates.walls += s.volume[i] * powers.walls[k];
         rates.dissipation += s.volume[i] * (powers.walls[k] - powers.total[k]);
+        if (s.has_shift)
+            for (std::size_t d = 0; d < D; ++d) rates.displacement += s.mass[i] * parameters.gravity[d] * s.shift[d][i];
     }
     if (viscosity.dynamic == 0) return rates;
     kernel.visit([&](const auto& k) {

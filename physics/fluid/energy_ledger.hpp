@@ -20,6 +20,7 @@ namespace aquagraph::fluid {
 
 struct EnergyRates {  // [W] ([W/m] in 2D)
     double compression = 0, dissipation = 0, viscous = 0, walls = 0;
+    double displacement = 0;  // potential energy that X-SPH's δv takes out, moving particles against or along gravity
     EnergyRates& add(double weight, const EnergyRates& rates);
 };
 
