@@ -220,7 +220,7 @@ TEST_CASE("what walls of normal fluxes do not go with is said, with what to do")
         const std::string error = error_of(with(basin, old, replacement));
         CHECK(error.find(message) != std::string::npos);
         CHECK(error.find("ghosts") != std::string::npos);
-        CHECK(error.find("scene.toml:12:") != std::string::npos);
+        CHECK(error.find("scene.toml:10:") != std::string::npos);
     };
     expect("[[fluid.box]]", "[fluid.scheme]\nname = \"riemann_ale\"\n[[fluid.box]]", "keep each particle's mass");
     expect("[[fluid.box]]", "[output]\nenergy_ledger = true\n[[fluid.box]]", "energy ledger");
