@@ -124,6 +124,9 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
     if (model.interface) parts.push_back(interface_force(scene, *model.interface));
     if (model.fluid) parts.push_back(fluid_energies(model));
     if (model.fluid && model.fluid->ledger.kept) parts.push_back(energy_balance(model));
+    for (const fluid::WallWork<D>& work : model.wall_works)
+        parts.push_back({{{work.name + "_work", per_depth<D>("J")}},
+                         [&work](std::vector<double>& row) { row.push_back(work.ledger.sum.walls); }});
     if (model.solid) parts.push_back(solid_energies(*model.solid));
     if (model.fluid) parts.push_back(particle_figures(*model.fluid));
     if (model.fluid && !FieldColumns(scene).columns().empty()) parts.push_back(fields(scene, model));

@@ -57,7 +57,7 @@ class Listing {
             const std::string name = "stage " + std::to_string(stage + 1);
             group(label + ", " + name);
             evaluation(fluid.integration.stage_time(stage), name, stage == 0);
-            if (fluid.ledger.kept) add(tasks::energy_ledger(fluid, model_.clock, stage, name));
+            if (fluid.ledger.kept) ledger(stage, name);
             add(tasks::integration_stage(fluid, model_.clock, stage));
         }
         group(label + ", end");
@@ -95,6 +95,12 @@ class Listing {
         }
         if (model_.central_force) add(tasks::central_force(fluid, *model_.central_force, name));
         if (model_.driving_force) add(tasks::driving_force<D>(fluid, *model_.driving_force, name));
+    }
+
+    void ledger(int stage, const std::string& name) {
+        add(tasks::energy_ledger(*model_.fluid, model_.clock, stage, name));
+        if (!model_.wall_works.empty())
+            add(tasks::wall_work(*model_.fluid, *model_.walls, model_.wall_works, model_.clock, stage, name));
     }
 
     void transport(const std::string& name) {
@@ -182,7 +188,7 @@ std::vector<Task> first_evaluation(Model<D>& model) {
     Listing<D> listing(model);
     listing.lists("start");
     listing.evaluation(0, "start", true);
-    if (model.fluid->ledger.kept) listing.add(tasks::energy_ledger(*model.fluid, model.clock, 0, "start"));
+    if (model.fluid->ledger.kept) listing.ledger(0, "start");
     return listing.take();
 }
 

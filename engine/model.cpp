@@ -97,6 +97,9 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
         add_walls(scene, walls.panels);
         make_periodic(scene, walls.periodic, model->fluid->domain);
         model->moving = moving_walls(scene, walls.panels);
+        for (std::size_t w = 0; w < scene.walls.size(); ++w)
+            if (scene.walls[w].force && scene.output.energy_ledger)
+                model->wall_works.push_back({scene.walls[w].name, fluid::WallForces<D>(int(w)), {}});
     }
     if constexpr (D == 2) {
         if (scene.solid) {

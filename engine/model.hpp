@@ -13,6 +13,7 @@
 #include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
+#include "physics/fluid/walls/wall_forces.hpp"
 #include "physics/solid/solver.hpp"
 
 namespace aquagraph::engine {
@@ -27,6 +28,7 @@ struct Model {
     std::optional<fluid::GhostWalls<D>> walls;            // ghosts …
     std::optional<fluid::NormalFluxWalls<D>> flux_walls;  // … or normal fluxes
     fluid::MovingWalls<D> moving;                         // those with a prescribed motion
+    std::vector<fluid::WallWork<D>> wall_works;           // of walls whose force is asked for, where energies are kept
     std::optional<solid::Solver> solid;
     std::optional<coupling::Interface> interface;
     Clock clock;

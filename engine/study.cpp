@@ -85,7 +85,8 @@ ExitCode study(const io::Study& study, const StudyOptions& options, std::ostream
                     fmt::format("{}_{:g}", study.variants[run.variant].name, run.resolution);
                 record = make_run(study, run, program, options.threads, place, stop);
                 if (!record) break;
-                keep_run(folder / "kept", run, repeat, *record);
+                // A run that could not even begin may have met a passing trouble.
+                if (record->failure.empty() || record->steps > 0) keep_run(folder / "kept", run, repeat, *record);
             }
             failed += !record->failure.empty();
             err << fmt::format("[{}/{}] {}{}: {}\n", ++number, runs.size() * std::size_t(repeats), name_of(study, run),

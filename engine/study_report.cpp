@@ -47,9 +47,13 @@ std::string percent(double error) {
 }
 
 // A bar would end the cell.
-std::string in_a_cell(std::string text) {
-    for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
-    return text;
+std::string in_a_cell(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '|') result += '\\';
+        result += c;
+    }
+    return result;
 }
 
 class CaseTable {

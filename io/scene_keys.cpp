@@ -262,7 +262,8 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"wall", "slip", K::choice, false, "", any, "free none symmetry", "free",
      "along the wall: free slip or no slip; symmetry: free slip, and no body that bears a load"},
     {"wall", "force", K::boolean, false, "", any, "", "false",
-     "writes the water's force on the wall into history.csv, as NAME_force_x and so on"},
+     "writes the water's force on the wall into history.csv, as NAME_force_x and so on; with an energy ledger also its "
+     "work on the water, NAME_work"},
 
     {"wall.box", "min", K::point, true, "m", any, "", "", "lower left corner"},
     {"wall.box", "max", K::point, true, "m", any, "", "", "upper right corner"},

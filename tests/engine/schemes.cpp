@@ -92,6 +92,25 @@ TEST_CASE("every scheme runs from its scene, the same on any number of threads")
     }
 }
 
+TEST_CASE("the work of single walls is the work of all, and a piston's is what the water gains") {
+    const std::string piston =
+        with(with(collapse, "[[wall]]\nname = \"tank\"\npoints = [[0, 1], [0, 0], [1, 0], [1, 1]]",
+                  "[[wall]]\nname = \"piston\"\npoints = [[0, 1], [0, -0.1]]\nforce = true\n"
+                  "motion = { translation = { velocity = [0.5, 0] } }\n"
+                  "[[wall]]\nname = \"floor\"\npoints = [[-0.1, 0], [1, 0]]\nforce = true"),
+             "#output\n", "energy_ledger = true\n");
+    const Finished run(piston, 2);
+    REQUIRE(run.code == engine::success);
+    const io::History history = run.results.history();
+    const double piston_work = history.column("piston_work").back(), floor_work = history.column("floor_work").back(),
+                 all = history.column("fluid_wall_work").back();
+    CHECK(std::fabs(piston_work + floor_work - all) < 1e-9 * std::fabs(all));
+    // Of the order of ∫ ½ ρ g H² v dt = 6.6 J/m, and positive.
+    CHECK(piston_work > 2);
+    CHECK(std::fabs(floor_work) < 0.2 * piston_work);
+    CHECK(std::fabs(history.column("fluid_energy_residual").back()) < 1e-3 * piston_work);
+}
+
 TEST_CASE("what does not go together is refused with its line") {
     CHECK(refusal("scheme = { riemann_solver = \"exact\" }\npolytropic_exponent = 1.4\n")
               .find("polytropic_exponent = 7") != std::string::npos);

@@ -101,6 +101,16 @@ Vec<D> WallForces<D>::force() const {
     return sum;
 }
 
+template <int D>
+EnergyRates WallForces<D>::power(const Fluid<D>& fluid, std::size_t block) const {
+    EnergyRates sum;
+    const std::size_t end = std::min(clusters_.size(), (block + 1) * clusters_per_part);
+    for (std::size_t k = block * clusters_per_part; k < end; ++k)
+        sum.add(1, energy_rates(fluid.particles, lists_, fluid.kernel, fluid.flux, fluid.tait, fluid.viscosity,
+                                lanes_of_cluster(fluid.particles, clusters_[k])));
+    return sum;
+}
+
 template class WallForces<2>;
 template class WallForces<3>;
 

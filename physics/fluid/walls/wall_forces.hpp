@@ -5,6 +5,7 @@
 // rounding. A ghost of a corner between two walls belongs to the one through which it is seen.
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "physics/fluid/fluid.hpp"
@@ -30,6 +31,10 @@ class WallForces {
     void compute(Fluid<D>& fluid, std::size_t block);
     Vec<D> force() const;  // [N] ([N/m] in 2D): the sum of all parts, in a fixed order
 
+    // One part of the power that this wall gives to the water, in `walls` (energy_ledger.hpp); the other rates are
+    // those of its pairs alone.
+    EnergyRates power(const Fluid<D>& fluid, std::size_t block) const;
+
   private:
     static constexpr std::size_t clusters_per_part = 8;
     bool is_of_wall(const GhostWalls<D>& walls, std::size_t particle, std::size_t ghost) const;
@@ -44,5 +49,13 @@ class WallForces {
 
 extern template class WallForces<2>;
 extern template class WallForces<3>;
+
+// What one wall has done to the water since the start.
+template <int D>
+struct WallWork {
+    std::string name;
+    WallForces<D> pairs;
+    EnergyLedger ledger;
+};
 
 }  // namespace aquagraph::fluid
