@@ -18,8 +18,8 @@
 namespace aquagraph::io {
 namespace {
 
-// K of Δt = K R/c that is stable with room to spare: the dam break at R/Δx 4 blows up at 0.75 (RK4), beyond 0.5 (RK3) and
-// at 0.3 (Verlet).
+// K of Δt = K R/c that is stable with room to spare: the dam break at R/Δx 4 blows up at 0.75 (RK4), beyond 0.5 (RK3)
+// and at 0.3 (Verlet).
 double standard_cfl(fluid::IntegrationScheme scheme) {
     switch (scheme) {
         case fluid::IntegrationScheme::rk3:

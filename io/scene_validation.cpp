@@ -115,9 +115,11 @@ class Validation {
         if (!scene_.periodic.empty())
             complaints_.add("fluid.walls", "walls of normal fluxes have no images in a periodic domain",
                             help + ", or take [domain] periodic out");
-        if (fluid.scheme.name == fluid::Scheme::riemann_ale)
-            complaints_.add("fluid.walls", "walls of normal fluxes are for schemes that keep each particle's mass",
-                            help + ", or another [fluid.scheme]");
+        // δ-SPH and artificial viscosity have no Riemann problem to put at the wall; without its damping still water
+        // does not stay still. ALE exchanges mass, which the walls do not follow.
+        if (fluid.scheme.name != fluid::Scheme::riemann)
+            complaints_.add("fluid.walls", "walls of normal fluxes need Riemann-SPH without mass exchange",
+                            help + ", or [fluid.scheme] name = \"riemann\"");
         if (scene_.output.energy_ledger)
             complaints_.add("fluid.walls", "the energy ledger does not know the work of walls of normal fluxes",
                             help + ", or energy_ledger = false");

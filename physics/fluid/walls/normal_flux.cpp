@@ -45,7 +45,7 @@ struct MomentPass {
         }
         const double r = std::sqrt(r2), volume_seen = volume[j] * seen;
         const double w = kernel.slope(r * kernel.inverse_radius()) * volume_seen;
-        sum.shepard[l] += kernel.value(r) * volume_seen;  // its own share is among them
+        sum.shepard[l] += r2 > 0 ? kernel.value(r) * volume_seen : 0.0;  // its own is not always listed
         for (int a = 0; a < D; ++a) {
             const double wa = w * dx[a];
             sum.G[a][l] += wa;
@@ -184,7 +184,8 @@ void NormalFluxWalls<D>::complete_with(Particles<D>& s, const NeighbourLists<D>&
         Mat<D> completed;
         const double own = smallest_eigenvalue<D>(M, B), full = smallest_eigenvalue<D>(M + missing, completed);
         // Past the end of a wall the moment of the shadow is not known, but the kernel's mass is.
-        const double filled = b.near[k].shadowed ? std::max(full, sum.shepard / gamma_[i]) : full;
+        const double filled =
+            b.near[k].shadowed ? std::max(full, (sum.shepard + kernel.value(0) * s.volume[i]) / gamma_[i]) : full;
         s.fullness[i] = filled;
         // The gradient behind the wall: hydrostatic, and none of the velocity.
         Vec<D> weight;
