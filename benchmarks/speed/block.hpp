@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -29,11 +30,11 @@ template <int D>
 class WaterBlock {
   public:
     // n particles along every edge of length 1; R/Δx; largest speed over the speed of sound.
-    WaterBlock(std::size_t n, double radius_over_spacing, double mach)
+    WaterBlock(std::size_t n, double radius_over_spacing, double mach, const fluid::FluxParameters& flux = {})
         : fluid{.spacing = 1.0 / double(n),
                 .tait = {1000, 20},
                 .kernel = fluid::WendlandC2<D>(radius_over_spacing / double(n)),
-                .flux = {},
+                .flux = flux,
                 .cfl = 0.375,
                 .domain = {},
                 .closed = false,
@@ -50,6 +51,7 @@ class WaterBlock {
         std::size_t count = 1;
         for (int d = 0; d < D; ++d) count *= n;
         auto& s = fluid.particles;
+        fluid.prepare_particles();
         s.resize(count, 0);
         std::mt19937 random(1);
         std::uniform_real_distribution<double> noise(-0.1, 0.1);
@@ -112,27 +114,20 @@ class WaterBlock {
 
     double bytes_per_particle() const {
         const auto& s = fluid.particles;
-        double bytes = double(sizeof(std::int64_t)) * double(s.id.capacity());
-        const auto field = [&](const auto& values) { bytes += double(sizeof(values[0])) * double(values.capacity()); };
-        for (const auto* f : {&s.mass, &s.deviation, &s.deviation_rate, &s.fullness, &s.p, &s.impedance, &s.volume})
-            field(*f);
-        for (std::size_t d = 0; d < D; ++d) {
-            for (const auto* f : {&s.x[d], &s.v[d], &s.acceleration[d], &s.x_built[d], &s.grad_p[d]}) field(*f);
-            for (std::size_t e = 0; e < D; ++e) field(s.grad_v[d][e]);
-            for (const auto* f : {&fluid.integration.x_n[d], &fluid.integration.v_n[d], &fluid.integration.x_sum[d],
-                                  &fluid.integration.v_sum[d]})
-                field(*f);
-        }
-        field(fluid.integration.deviation_n);
-        field(fluid.integration.deviation_sum);
+        double bytes = double(s.bytes() + fluid.integration.bytes());
         for (const auto* lists : {&fluid.lists.blocks, &fluid.lists.inner})
-            for (const auto& block : *lists) {
-                field(block.particle);
-                field(block.open);
-                field(block.masked);
-                field(block.mask);
-            }
+            for (const auto& block : *lists)
+                bytes += double(fluid::bytes_of(block.particle, block.open, block.masked, block.mask));
         return bytes / double(s.count);
+    }
+
+    // Whether the run means anything.
+    bool finite() const {
+        const auto& s = fluid.particles;
+        for (std::size_t i = 0; i < s.count; ++i)
+            for (std::size_t d = 0; d < D; ++d)
+                if (!std::isfinite(s.x[d][i]) || !std::isfinite(s.v[d][i])) return false;
+        return true;
     }
 
     fluid::Fluid<D> fluid;

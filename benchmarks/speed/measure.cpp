@@ -1,5 +1,6 @@
-// Measures the pair passes against the yardstick beside this file, and the cases' wall time and error, and writes
-// benchmarks/RESULTS.md. Question: how much of what a core can do does a pass reach, and what does an error cost?
+// Measures the pair passes against the yardstick beside this file, whole steps beside the open codes, and the cases'
+// wall time and error; each is a section of benchmarks/RESULTS.md. Question: how much of what a core can do does a pass
+// reach, and what does an error cost?
 //
 // Passes and yardstick run in turn, several times, and medians are compared: the machine's drift cancels.
 #include <fmt/format.h>
@@ -32,8 +33,8 @@ namespace {
 using namespace aquagraph;
 using aquagraph::benchmarks::seconds_of;
 
-constexpr int rounds = 5;              // of passes and yardstick
-constexpr int case_rounds = 3;         // of whole runs
+constexpr int rounds = 3;              // of passes and yardstick
+constexpr int case_rounds = 3;         // of whole runs of the quick cases
 constexpr double skin_of_step = 0.02;  // over R: a step at Mach 0.02
 
 double median(std::vector<double> values) {
@@ -140,12 +141,12 @@ std::string pass_table() {
     };
     std::map<std::string, Measured> all;
     std::vector<std::pair<std::string, std::function<PassSpeed()>>> set_ups;
-    for (const double radius : {2.6, 4.0})
+    for (const double radius : {2.11, 2.6, 3.0, 4.0}) {
         set_ups.push_back({fmt::format("2D, R/Δx {:.2f}", radius),
                            [lattice = std::make_shared<Lattice<2>>(200, radius)] { return lattice->measure(); }});
-    for (const double radius : {2.11, 2.6, 3.0})
         set_ups.push_back({fmt::format("3D, R/Δx {:.2f}", radius),
-                           [lattice = std::make_shared<Lattice<3>>(48, radius)] { return lattice->measure(); }});
+                           [lattice = std::make_shared<Lattice<3>>(40, radius)] { return lattice->measure(); }});
+    }
     for (int round = 0; round < rounds; ++round) {
         std::cerr << "passes, round " << round + 1 << " of " << rounds << "\n";
         for (const auto& [name, value] : yardstick()) all[name].limit.push_back(value);
@@ -181,7 +182,7 @@ std::string case_table(int threads) {
     for (const char* file :
          {"gate_2d/scene_fast.toml", "gate_2d/scene.toml", "gate_2d/scene_1mm.toml", "hydrostatic_plate/scene.toml"}) {
         const io::Scene scene = io::read_scene(root / file);
-        const bool quick = scene.fluid->spacing > 0.0015;  // finer ones are run once
+        const bool quick = scene.fluid->spacing > 0.0022;  // finer ones are run once
         engine::RunOptions options;
         options.folder = scratch;
         options.threads = threads;
@@ -219,33 +220,73 @@ std::string processor() {
     return "unknown processor";
 }
 
+std::string title(const char* name, const char* heading, int threads) {
+    return fmt::format(
+        "## {}\n\nWritten by `aquagraph-measure`; to repeat:\n\n    ./aquagraph build aquagraph-measure && "
+        "build/release/benchmarks/aquagraph-measure --only {}\n\nMachine: {}, {} threads; compiler GCC {}.\n\n",
+        heading, name, processor(), threads, __VERSION__);
+}
+
+std::string passes(int threads) {
+    return title("passes", "Pair passes and searches", threads) +
+           fmt::format(
+               "One core, double precision, disturbed lattice; the yardstick is `benchmarks/speed/pair_flux_limit.cpp` "
+               "(its best form, lists without skin; ours are pruned to a skin of {:g} R). The search makes lists for a "
+               "run, with a skin of {:g} R; pruning makes those of a step. Medians of {} alternating rounds.\n\n",
+               skin_of_step, fluid::skin_ratio, rounds) +
+           pass_table();
+}
+
+std::string steps(int threads) {
+    return title("steps", "Whole steps", threads) + benchmarks::step_tables(threads);
+}
+
+std::string cases(int threads) {
+    return title("cases", "Cases: speed and error", threads) +
+           fmt::format(
+               "Wall time of the whole run with all output on {} threads, median of {} (scenes finer than 2.2 mm: one "
+               "run).\n\n",
+               threads, case_rounds) +
+           case_table(threads);
+}
+
+constexpr struct {
+    const char* name;
+    std::string (*write)(int threads);
+} sections[] = {{"passes", passes}, {"steps", steps}, {"cases", cases}};
+
+constexpr const char* usage =
+    "usage: aquagraph-measure [--only passes|steps|cases] [--print]\n"
+    "  --only   measure this section alone; the others stay in benchmarks/RESULTS.md as they are\n"
+    "  --print  write to the terminal alone\n";
+
 }  // namespace
 
-// `--passes` leaves the cases out and writes nothing but to the terminal.
 int main(int argc, char** argv) {
-    try {
-        const bool with_cases = argc < 2 || std::string(argv[1]) != "--passes";
-        const int threads = int(std::thread::hardware_concurrency());
-        std::string text =
-            "## Speed\n\nWritten by `aquagraph-measure`; to repeat:\n\n"
-            "    ./aquagraph build aquagraph-measure && build/release/benchmarks/aquagraph-measure\n\n";
-        text += fmt::format("Machine: {}, {} threads; compiler GCC {}.\n\n", processor(), threads, __VERSION__);
-        text += fmt::format(
-            "## Pair passes\n\nOne core, double precision, disturbed lattice; the yardstick is "
-            "`benchmarks/speed/pair_flux_limit.cpp` (its best form, lists without skin; ours are pruned to a skin of "
-            "{:g} R). Medians of {} alternating rounds.\n\n",
-            skin_of_step, rounds);
-        text += pass_table();
-        text += benchmarks::step_tables(threads);
-        if (with_cases) {
-            text += fmt::format(
-                "\n## Cases: speed and error\n\nWall time of the whole run with all output on {} threads, "
-                "median of {} (scenes finer than 1.5 mm: one run).\n\n",
-                threads, case_rounds);
-            text += case_table(threads);
-            benchmarks::write_section(AQUAGRAPH_SOURCE_DIR "/benchmarks/RESULTS.md", "speed", text);
+    std::string only;
+    bool print = false;
+    for (int k = 1; k < argc; ++k) {
+        const std::string argument = argv[k];
+        const auto known = [&](const auto& section) {
+            return k + 1 < argc && section.name == std::string(argv[k + 1]);
+        };
+        if (argument == "--print") {
+            print = true;
+        } else if (argument == "--only" && std::any_of(std::begin(sections), std::end(sections), known)) {
+            only = argv[++k];
+        } else {
+            std::cerr << usage;
+            return 2;
         }
-        std::cout << text;
+    }
+    try {
+        const int threads = int(std::thread::hardware_concurrency());
+        for (const auto& section : sections) {
+            if (!only.empty() && only != section.name) continue;
+            const std::string text = section.write(threads);
+            std::cout << text << "\n" << std::flush;
+            if (!print) benchmarks::write_section(AQUAGRAPH_SOURCE_DIR "/benchmarks/RESULTS.md", section.name, text);
+        }
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "aquagraph-measure: " << error.what() << "\n";

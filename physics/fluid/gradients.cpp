@@ -98,6 +98,9 @@ constexpr int column<2>[6] = {0, 1, 1};
 template <int D, class Kernel, bool pressure, bool velocity>
 struct GradientPass {
     static constexpr int moments = D * (D + 1) / 2;
+    // Rows of the sums: the moment, ∇p, ∇v.
+    static constexpr int row_of_p = moments, row_of_v = row_of_p + (pressure ? D : 0),
+                         rows = row_of_v + (velocity ? D * D : 0);
     Kernel kernel;
     const double* x[D];
     const double* v[D];
@@ -121,7 +124,7 @@ struct GradientPass {
         double x[D], v[D], p;
     };
     struct Sum {
-        double moment[moments][W], p[D][W], v[D][D][W];
+        double lane[rows][W];
     };
 
     Own load(std::size_t i) const {
@@ -142,24 +145,27 @@ struct GradientPass {
         }
         // ∇W_ij ω_j = w (x_j - x_i)
         const double w = kernel.slope(std::sqrt(r2) * kernel.inverse_radius()) * volume[j] * seen;
+        double gradient[D];
+        for (int a = 0; a < D; ++a) gradient[a] = w * dx[a];
         // Flat loops with constant trip counts: GCC does not unroll a triangular nest early enough to vectorise the
         // lanes.
-        for (int k = 0; k < moments; ++k) sum.moment[k][l] += w * dx[row<D>[k]] * dx[column<D>[k]];
+        for (int k = 0; k < moments; ++k) sum.lane[k][l] += gradient[row<D>[k]] * dx[column<D>[k]];
         if constexpr (pressure) {
-            const double dp = (p[j] - i.p) * w;
-            for (int a = 0; a < D; ++a) sum.p[a][l] += dp * dx[a];
+            const double dp = p[j] - i.p;
+            for (int a = 0; a < D; ++a) sum.lane[row_of_p + a][l] += dp * gradient[a];
         }
         if constexpr (velocity) {
             for (int e = 0; e < D; ++e) {
-                const double dv = (v[e][j] - i.v[e]) * w;
-                for (int a = 0; a < D; ++a) sum.v[e][a][l] += dv * dx[a];
+                const double dv = v[e][j] - i.v[e];
+                for (int a = 0; a < D; ++a) sum.lane[row_of_v + e * D + a][l] += dv * gradient[a];
             }
         }
     }
 
     void store(std::size_t i, const Own&, const Sum& sum) const {
-        double b[moments];
-        for (int k = 0; k < moments; ++k) b[k] = add_lanes(sum.moment[k]);
+        double total[rows], b[moments];
+        add_lanes(sum.lane, total);
+        for (int k = 0; k < moments; ++k) b[k] = total[k];
         const double smallest = invert_moment<D>(b, fullness_to_reconstruct);
         fullness[i] = smallest;
         if constexpr (!pressure && !velocity) return;
@@ -167,18 +173,16 @@ struct GradientPass {
         double B[D][D];
         for (int a = 0, k = 0; a < D; ++a)
             for (int c = a; c < D; ++c, ++k) B[a][c] = B[c][a] = full ? b[k] : 0.0;
-        const auto apply = [&](const double(&raw)[D][W], auto&& out) {
-            double g[D];
-            for (int a = 0; a < D; ++a) g[a] = add_lanes(raw[a]);
-            for (int a = 0; a < D; ++a) {
-                double value = 0;
-                for (int c = 0; c < D; ++c) value += B[a][c] * g[c];
-                out(a) = value;
-            }
+        const auto component = [&](int first_row, int a) {
+            double value = 0;
+            for (int c = 0; c < D; ++c) value += B[a][c] * total[first_row + c];
+            return value;
         };
-        if constexpr (pressure) apply(sum.p, [&](int a) -> double& { return grad_p[a][i]; });
+        if constexpr (pressure)
+            for (int a = 0; a < D; ++a) grad_p[a][i] = component(row_of_p, a);
         if constexpr (velocity)
-            for (int e = 0; e < D; ++e) apply(sum.v[e], [&](int a) -> double& { return grad_v[e][a][i]; });
+            for (int e = 0; e < D; ++e)
+                for (int a = 0; a < D; ++a) grad_v[e][a][i] = component(row_of_v + e * D, a);
     }
 };
 

@@ -11,6 +11,10 @@
 
 #include "physics/fluid/neighbour_lists.hpp"
 
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
 namespace aquagraph::fluid {
 
 template <int D, class Pass>
@@ -41,6 +45,33 @@ template <int D, class Pass>
 // The lanes of an accumulator, added in a fixed order.
 inline double add_lanes(const double (&lane)[W]) {
     return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+// The same of N accumulators at once: total[k] has the bits of add_lanes(lane[k]).
+template <std::size_t N>
+[[gnu::always_inline]] inline void add_lanes(const double (&lane)[N][W], double (&total)[N]) {
+    std::size_t done = 0;
+#ifdef __AVX512F__
+    // Four at a time: halves, then quarters, are added across the four registers. (Masks of all lanes: the forms
+    // without a mask make GCC 12 warn of uninitialised values in its own header.)
+    constexpr __mmask8 all = 0xFF;
+    for (; done + 2 < N; done += 4) {
+        const auto row = [&](std::size_t k) __attribute__((always_inline)) {
+            return _mm512_loadu_pd(lane[done + k < N ? done + k : N - 1]);
+        };
+        const auto halves = [](__m512d a, __m512d b) __attribute__((always_inline)) {
+            return _mm512_add_pd(_mm512_maskz_shuffle_f64x2(all, a, b, 0x44),
+                                 _mm512_maskz_shuffle_f64x2(all, a, b, 0xEE));
+        };
+        const __m512d ab = halves(row(0), row(1)), cd = halves(row(2), row(3));
+        const __m512d quarters =
+            _mm512_add_pd(_mm512_maskz_shuffle_f64x2(all, ab, cd, 0x88), _mm512_maskz_shuffle_f64x2(all, ab, cd, 0xDD));
+        alignas(64) double pairs[8];
+        _mm512_store_pd(pairs, quarters);
+        for (std::size_t k = 0; k < 4 && done + k < N; ++k) total[done + k] = pairs[2 * k] + pairs[2 * k + 1];
+    }
+#endif
+    for (; done < N; ++done) total[done] = add_lanes(lane[done]);
 }
 
 }  // namespace aquagraph::fluid

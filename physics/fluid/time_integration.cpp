@@ -1,5 +1,7 @@
 #include "physics/fluid/time_integration.hpp"
 
+#include <algorithm>
+
 namespace aquagraph::fluid {
 
 namespace {
@@ -103,12 +105,26 @@ void TimeIntegration<D>::resize(const Particles<D>& particles) {
 
 template <int D>
 void update_state(Particles<D>& s, const Tait& tait, LaneRange lanes) {
-    for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
-        const double rho = tait.reference_density + s.deviation[i];
-        const double p = tait.pressure(s.deviation[i]);
-        s.p[i] = p < 0 && s.fullness[i] < fullness_of_interior ? 0.0 : p;
-        s.impedance[i] = rho * tait.sound_speed_at(s.deviation[i]);
-        s.volume[i] = s.mass[i] / rho;
+    // Plain pointers and a Tait of its own: then the loop for water is one of vectors.
+    const double* const deviation = s.deviation.data();
+    const double* const mass = s.mass.data();
+    const double* const fullness = s.fullness.data();
+    double* const pressure = s.p.data();
+    double* const impedance = s.impedance.data();
+    double* const volume = s.volume.data();
+    const auto update = [=](const Tait& own, std::size_t i) __attribute__((always_inline)) {
+        const double rho = own.reference_density + deviation[i];
+        const double p = own.pressure(deviation[i]);
+        pressure[i] = fullness[i] < fullness_of_interior ? std::max(p, 0.0) : p;
+        impedance[i] = rho * own.sound_speed_at(deviation[i]);
+        volume[i] = mass[i] / rho;
+    };
+    if (tait.exponent == 7) {
+        const Tait water{tait.reference_density, tait.sound_speed};
+#pragma omp simd
+        for (std::size_t i = lanes.begin; i < lanes.end; ++i) update(water, i);
+    } else {
+        for (std::size_t i = lanes.begin; i < lanes.end; ++i) update(tait, i);
     }
 }
 

@@ -48,22 +48,25 @@ struct AlePair {
                                                  double seen, double exchange) const {
         double dx[D], r, w, p_e, U_e;
         pair_geometry<D>(i, s, j, seen, kernel, dx, r, w);
+        // All velocities relative to v_i; those of `at` doubled.
         const auto at = reconstruct<D, muscl>(i, s, j, dx);
-        solve_riemann<solver>(tait, r, at.p_L, at.U_L, i.impedance, at.p_R, at.U_R, s.impedance[j], p_e, U_e);
-        double U0_i = at.U_i, U0_j = 0;
+        solve_riemann<solver>(tait, r, at, i.impedance, s.impedance[j], p_e, U_e);
+        p_e *= 0.5;
+        U_e *= 0.5;
+        double U0_i = 0, U0_j = 0;
         for (int d = 0; d < D; ++d) {
             U0_i += shift_i[d] * dx[d];
-            U0_j += (s.v[d][j] + shift[d][j]) * dx[d];
+            U0_j += (s.v[d][j] - i.v[d] + shift[d][j]) * dx[d];
         }
         const double U0 = exchange > 0 ? 0.5 * (U0_i + U0_j) : U_e;
         const double flow = U_e - U0;  // > 0: from i to j
         const double rho_flow = density(p_e) * flow;
-        const double correction = (U_e - (flow > 0 ? at.U_L : at.U_R)) / (r * r);
+        const double correction = (U_e - 0.5 * (flow > 0 ? at.U_L : at.U_L + at.U_jump)) / (r * r);
         AleFlux<D> flux;
         flux.dilation = 2 * (U0 - U0_i) * w;
         flux.mass = 2 * rho_flow * w;
         for (int d = 0; d < D; ++d) {
-            const double v_e = (flow > 0 ? at.v_L[d] : at.v_R[d]) + correction * dx[d];
+            const double v_e = i.v[d] + 0.5 * (flow > 0 ? at.v_L[d] : at.v_R[d]) + correction * dx[d];
             flux.momentum[d] = 2 * (rho_flow * v_e + p_e * dx[d]) * w;
         }
         return flux;

@@ -16,11 +16,13 @@
 
 namespace aquagraph::fluid {
 
-// The two states of a pair at the interface between them, along dx.
+// The two states of a pair at the interface between them, along dx. Of the velocities twice the values, relative to
+// particle i: so the halves of the reconstruction and the factor 2 of the flux cost nothing, nor does i's own velocity.
 template <int D>
 struct InterfaceSides {
-    double p_L, p_R, U_L, U_R, U_i;  // U_i: of particle i itself, not reconstructed
+    double p_L, p_R;
     double v_L[D], v_R[D];
+    double U_L, U_jump;  // U_jump: U_R - U_L, the same bits from either side of the pair
 };
 
 template <int D, bool muscl>
@@ -29,54 +31,57 @@ template <int D, bool muscl>
     InterfaceSides<D> at;
     at.p_L = i.p;
     at.p_R = s.p[j];
-    at.U_L = at.U_R = at.U_i = 0;
+    at.U_L = at.U_jump = 0;
     if constexpr (muscl) {
         double slope_i = 0, slope_j = 0;
         for (int d = 0; d < D; ++d) {
             slope_i += i.grad_p[d] * dx[d];
             slope_j += s.grad_p[d][j] * dx[d];
         }
-        const double dp = at.p_R - at.p_L;
+        const double dp = s.p[j] - i.p;
         at.p_L += 0.5 * minmod(slope_i, dp);
         at.p_R -= 0.5 * minmod(slope_j, dp);
     }
     for (int e = 0; e < D; ++e) {
-        at.v_L[e] = i.v[e];
-        at.v_R[e] = s.v[e][j];
-        at.U_i += i.v[e] * dx[e];
+        const double dv = s.v[e][j] - i.v[e];
+        double limited_i = 0, limited_j = 0;
         if constexpr (muscl) {
             double slope_i = 0, slope_j = 0;
             for (int d = 0; d < D; ++d) {
                 slope_i += i.grad_v[e][d] * dx[d];
                 slope_j += s.grad_v[e][d][j] * dx[d];
             }
-            const double dv = at.v_R[e] - at.v_L[e];
-            at.v_L[e] += 0.5 * minmod(slope_i, dv);
-            at.v_R[e] -= 0.5 * minmod(slope_j, dv);
+            limited_i = minmod(slope_i, dv);
+            limited_j = minmod(slope_j, dv);
+            at.U_L += limited_i * dx[e];
         }
-        at.U_L += at.v_L[e] * dx[e];
-        at.U_R += at.v_R[e] * dx[e];
+        at.v_L[e] = limited_i;
+        at.v_R[e] = (dv + dv) - limited_j;
+        at.U_jump += ((dv + dv) - (limited_i + limited_j)) * dx[e];
     }
     return at;
 }
 
-// p_e and U_e = u_e r of the Riemann problem; Z = ρc of the two particles.
-template <RiemannSolver solver>
-[[gnu::always_inline]] inline void solve_riemann(const Tait& tait, double r, double p_L, double U_L, double Z_L,
-                                                 double p_R, double U_R, double Z_R, double& p_e, double& U_e) {
+// 2 p_e and 2 U_e = 2 u_e r of the Riemann problem between these states; Z = ρc of the two particles.
+template <RiemannSolver solver, int D>
+[[gnu::always_inline]] inline void solve_riemann(const Tait& tait, double r, const InterfaceSides<D>& at, double Z_L,
+                                                 double Z_R, double& p_e, double& U_e) {
     if constexpr (solver == RiemannSolver::exact) {
-        const double inverse_r = 1 / r;
-        const InterfaceState state = exact_water_riemann(tait, U_L * inverse_r, p_L, U_R * inverse_r, p_R);
-        p_e = state.pressure;
-        U_e = state.velocity * r;
+        const double half_over_r = 0.5 / r;
+        const InterfaceState state =
+            exact_water_riemann(tait, at.U_L * half_over_r, at.p_L, (at.U_L + at.U_jump) * half_over_r, at.p_R);
+        p_e = 2 * state.pressure;
+        U_e = 2 * state.velocity * r;
     } else {
-        // The acoustic solution of riemann.hpp with u = U/r, multiplied out so that one division is left.
-        const double Z = Z_L + Z_R, inverse = 1 / (r * Z);
-        double jump = U_L - U_R;
-        U_e = (Z_L * U_L + Z_R * U_R + (p_L - p_R) * r) * (inverse * r);
-        if constexpr (solver == RiemannSolver::low_dissipation)
-            jump *= std::min(6 * tait.reference_density * std::max(jump, 0.0) * inverse, 1.0);  // c = ½ Z/ρ0
-        p_e = ((Z_R * p_L + Z_L * p_R) * r + Z_L * Z_R * jump) * inverse;
+        // The acoustic solution of riemann.hpp with u = U/r and one division. The velocity as the change across the
+        // wave that runs into the left state; the pressure, whose force must be the same on both, in what both share:
+        //     2 p_e = p_L + p_R - [(Z_R - Z_L)(p_R - p_L) + 2 Z_L Z_R (u_R - u_L)] / (Z_L + Z_R)
+        const double inverse = 1 / (r * (Z_L + Z_R)), push = (at.p_R - at.p_L) * r;
+        U_e = at.U_L + (Z_R * at.U_jump - (push + push)) * inverse * r;
+        double jump = at.U_jump;
+        if constexpr (solver == RiemannSolver::low_dissipation)  // c = ½ Z/ρ0
+            jump *= std::min(3 * tait.reference_density * std::max(-jump, 0.0) * inverse, 1.0);
+        p_e = at.p_L + at.p_R - ((Z_R - Z_L) * push + Z_L * Z_R * jump) * inverse;
     }
 }
 
@@ -87,11 +92,11 @@ struct RiemannPair {
 
     [[gnu::always_inline]] PairFlux operator()(const PairState<D>& i, const FluxFields<D>& s, std::size_t j,
                                                double seen, double (&dx)[D]) const {
-        double r, w, p_e, U_e;
+        double r, w, twice_p_e, twice_U_e;
         pair_geometry<D>(i, s, j, seen, kernel, dx, r, w);
-        const auto at = reconstruct<D, muscl>(i, s, j, dx);
-        solve_riemann<solver>(tait, r, at.p_L, at.U_L, i.impedance, at.p_R, at.U_R, s.impedance[j], p_e, U_e);
-        return {2 * p_e * w, 2 * (U_e - at.U_i) * w};
+        solve_riemann<solver>(tait, r, reconstruct<D, muscl>(i, s, j, dx), i.impedance, s.impedance[j], twice_p_e,
+                              twice_U_e);
+        return {twice_p_e * w, twice_U_e * w};
     }
 };
 
