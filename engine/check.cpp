@@ -67,11 +67,16 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
     out << scene.title << "\n";
     if (model->fluid) {
         fluid::Fluid<D>& fluid = *model->fluid;
-        executor.execute([&] { rebuild_lists(fluid, model->walls ? &*model->walls : nullptr, tasks::parallel_loop); });
+        executor.execute([&] {
+            if (model->flux_walls)
+                rebuild_lists(fluid, *model->flux_walls, tasks::parallel_loop);
+            else
+                rebuild_lists(fluid, model->walls ? &*model->walls : nullptr, tasks::parallel_loop);
+        });
         fluid::StepLimits limits;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
             limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
-                                                 fluid.kinematic_viscosity()));
+                                                 fluid.viscosity_of_step()));
         const bool cps = model->interface && scene.coupling.algorithm == io::CouplingAlgorithm::cps;
         const double step = (cps ? scene.coupling.step_fraction : 1) * limits.step();
         const double steps = std::ceil(scene.end_time / step);
@@ -81,6 +86,10 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
                            io::scheme_text(*scene.fluid), fluid.particles.count, fluid.spacing,
                            scene.fluid->support_ratio, double(fluid.lists.pairs()) / n);
         for (const FilledBody& body : model->water) print_filling(out, body);
+        if (model->flux_walls)
+            out << fmt::format("walls      normal fluxes: {} panels, {} points, {} particles near them\n",
+                               model->flux_walls->panels.size(), model->flux_walls->points.size(),
+                               model->flux_walls->near_wall_count());
         if (model->walls)
             out << fmt::format("walls      ghost particles: {} panels, {} ghosts\n", model->walls->panels.panels.size(),
                                model->walls->ghosts.size());

@@ -85,9 +85,57 @@ class WallForcesTask {
     fluid::Scalars fullness_;
 };
 
+// The same with walls of normal fluxes: the pressure at their points, and friction where water sticks to them. It is
+// what every panel bears by itself; the reaction to the scheme's momentum balance would mix walls that meet in a
+// corner.
 template <int D>
+class FluxWallForcesTask {
+  public:
+    FluxWallForcesTask(const io::Scene& scene, Model<D>& model)
+        : fluid_(*model.fluid), walls_(*model.flux_walls), total_(scene.walls.size()) {
+        for (std::size_t w = 0; w < scene.walls.size(); ++w)
+            if (scene.walls[w].force) asked_.push_back(w);
+    }
+
+    void measure() {
+        fluid::Particles<D>& s = fluid_.particles;
+        if (fluid_.rebuilds == 0) rebuild_lists(fluid_, walls_, tasks::parallel_loop);  // before the first step
+        fullness_ = s.fullness;
+        tasks::for_each_block(fluid_.blocks(), [&](std::size_t block) {
+            if (!walls_.has_near_wall(block)) return;
+            walls_.compute_gamma(s, fluid_.kernel, block);
+            walls_.complete_gradients(s, fluid_.lists, fluid_.kernel, fluid_.flux, block);
+        });
+        vertex_forces_.assign(walls_.panels.position.size(), fluid::Vec<D>::Zero());
+        walls_.add_pressure_forces(s, fluid_.kernel, fluid_.flux, fluid_.viscosity.dynamic, vertex_forces_);
+        std::copy(fullness_.begin(), fullness_.end(), s.fullness.begin());
+        // No two walls share vertices.
+        std::vector<std::uint8_t> counted(vertex_forces_.size(), 0);
+        for (fluid::Vec<D>& total : total_) total.setZero();
+        for (const fluid::Panel<D>& panel : walls_.panels.panels)
+            for (const int v : panel.vertex) {
+                if (counted[std::size_t(v)]) continue;
+                counted[std::size_t(v)] = 1;
+                total_[std::size_t(panel.wall)] += vertex_forces_[std::size_t(v)];
+            }
+    }
+
+    void append(std::vector<double>& row) const {
+        for (const std::size_t w : asked_) row.insert(row.end(), total_[w].begin(), total_[w].end());
+    }
+
+  private:
+    fluid::Fluid<D>& fluid_;
+    fluid::NormalFluxWalls<D>& walls_;
+    std::vector<fluid::Vec<D>> total_;
+    std::vector<std::size_t> asked_;
+    std::vector<fluid::Vec<D>> vertex_forces_;
+    fluid::Scalars fullness_;
+};
+
+template <int D, class Forces>
 Diagnostic wall_forces(const io::Scene& scene, Model<D>& model) {
-    auto forces = std::make_shared<WallForcesTask<D>>(scene, model);
+    auto forces = std::make_shared<Forces>(scene, model);
     HistoryPart part;
     for (const io::WallScene& wall : scene.walls)
         for (std::size_t d = 0; d < D && wall.force; ++d)
@@ -96,7 +144,7 @@ Diagnostic wall_forces(const io::Scene& scene, Model<D>& model) {
     return {{.name = "wall forces",
              .reads = {resource::fluid_lists, resource::fluid_state, resource::walls},
              .writes = {resource::fluid_ghosts, resource::fluid_gradients, resource::ghost_gradients,
-                        resource::fluid_rates},
+                        resource::fluid_rates, resource::wall_gamma, resource::wall_moments},
              .body = [forces] { forces->measure(); }},
             part};
 }
@@ -109,7 +157,8 @@ std::vector<Diagnostic> make_diagnostics(const io::Scene& scene, Model<D>& model
     if (!scene.probes.empty()) all.push_back(probes(scene, model));
     const bool forces =
         std::any_of(scene.walls.begin(), scene.walls.end(), [](const io::WallScene& wall) { return wall.force; });
-    if (forces) all.push_back(wall_forces(scene, model));
+    if (forces && model.flux_walls) all.push_back(wall_forces<D, FluxWallForcesTask<D>>(scene, model));
+    if (forces && !model.flux_walls) all.push_back(wall_forces<D, WallForcesTask<D>>(scene, model));
     return all;
 }
 

@@ -8,7 +8,9 @@
 //       wall motion -> ghosts                  boundary data are refreshed at every substep, lists are not
 //       gradients -> ghost gradients           a ghost's gradient is its parent's, mirrored: hence after it
 //       free surface -> shifting, or X-SPH     where asked for, in the first stage
-//       fluxes -> viscosity -> energy ledger -> integration stage
+//       fluxes -> viscosity -> body forces -> energy ledger -> integration stage
+//       With walls of the normal flux method there are no ghosts:
+//       wall motion -> wall gamma, gradients -> wall gradients, fluxes -> viscosity -> wall friction -> wall fluxes
 //     wall contact, clock, examine
 //   wall motion, ghosts, gradients, loads      the load at the end of the cycle, from the state reached there
 //   FE Newton solve                            CPS reads the loads of the last exchange: nothing above holds it up, and
@@ -19,6 +21,7 @@
 
 #include "tasks/body_force.hpp"
 #include "tasks/fluid_pass.hpp"
+#include "tasks/flux_walls.hpp"
 #include "tasks/neighbours.hpp"
 #include "tasks/solid_step.hpp"
 #include "tasks/stepping.hpp"
@@ -58,14 +61,18 @@ class Listing {
             add(tasks::integration_stage(fluid, model_.clock, stage));
         }
         group(label + ", end");
-        if (moving() && fluid.integration.stage_time(fluid.integration.stages() - 1) < 1)
-            add(tasks::wall_motion<D>(*model_.walls, moving(), nullptr, model_.clock, 1, "end"));
+        if (moving() && fluid.integration.stage_time(fluid.integration.stages() - 1) < 1) wall_motion(1, "end");
         if (model_.walls) add(tasks::wall_contact(fluid, *model_.walls, label));
+        if (model_.flux_walls) add(tasks::wall_contact(fluid, *model_.flux_walls, label));
         add(tasks::advance_clock(model_.clock, label));
         add(tasks::examine(fluid, label));
     }
 
     void lists(const std::string& label) {
+        if (model_.flux_walls) {
+            add(tasks::neighbour_search(*model_.fluid, *model_.flux_walls, moving(), model_.clock, label));
+            return;
+        }
         coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
         fluid::GhostWalls<D>* walls = model_.walls ? &*model_.walls : nullptr;
         add(tasks::neighbour_search(*model_.fluid, walls, moving(), interface, model_.clock, label));
@@ -77,11 +84,17 @@ class Listing {
         boundary(fraction, name);
         add(tasks::gradients(fluid, name));
         if (model_.walls) add(tasks::ghost_gradients(fluid, *model_.walls, name));
+        if (model_.flux_walls) add(tasks::wall_gradients(fluid, *model_.flux_walls, name));
         if (first) transport(name);
         add(tasks::fluxes(fluid, name));
+        if (fluid.viscosity.dynamic > 0) add(tasks::viscosity(fluid, name));
+        if (model_.flux_walls) {
+            if (fluid.viscosity.dynamic > 0 && fluid.wall_friction > 1)
+                add(tasks::wall_friction(fluid, *model_.flux_walls, name));
+            add(tasks::wall_fluxes(fluid, *model_.flux_walls, name));
+        }
         if (model_.central_force) add(tasks::central_force(fluid, *model_.central_force, name));
         if (model_.driving_force) add(tasks::driving_force<D>(fluid, *model_.driving_force, name));
-        if (fluid.viscosity.dynamic > 0) add(tasks::viscosity(fluid, name));
     }
 
     void ledger(int stage, const std::string& name) {
@@ -104,6 +117,10 @@ class Listing {
 
     // Walls and ghosts at `fraction` of the present step.
     void boundary(double fraction, const std::string& label) {
+        if (model_.flux_walls) {
+            if (moving()) wall_motion(fraction, label);
+            add(tasks::wall_gamma(*model_.fluid, *model_.flux_walls, label));
+        }
         if (!model_.walls) return;
         const coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
         if (interface || moving())
@@ -121,6 +138,13 @@ class Listing {
     std::vector<Task> take() { return std::move(tasks_); }
 
   private:
+    // Of walls that move by themselves alone.
+    void wall_motion(double fraction, const std::string& label) {
+        if (model_.flux_walls)
+            add(tasks::wall_motion(*model_.flux_walls, *moving(), model_.clock, fraction, label));
+        else
+            add(tasks::wall_motion<D>(*model_.walls, moving(), nullptr, model_.clock, fraction, label));
+    }
     const fluid::MovingWalls<D>* moving() const { return model_.moving.empty() ? nullptr : &model_.moving; }
 
     Model<D>& model_;

@@ -62,6 +62,15 @@ void make_periodic(const io::Scene& scene, fluid::Periodic<D>& periodic, fluid::
     }
 }
 
+// Once all panels are there.
+template <int D>
+void settle(const io::Scene& scene, fluid::Panels<D>& panels, const fluid::MovingWalls<D>& moving) {
+    panels.update_geometry();
+    panels.find_joints();
+    part_moving_walls(scene, panels);
+    moving.place(panels, 0);  // and their velocities
+}
+
 }  // namespace
 
 template <int D>
@@ -76,7 +85,14 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     set_initial_fields(*model->fluid, scene);
     if (const auto& force = scene.fluid->central_force) model->central_force = {force->centre.as<D>(), force->rate};
     if (scene.fluid->driving_force) model->driving_force = scene.fluid->driving_force->as<D>();
-    if (!scene.walls.empty() || scene.solid || !scene.periodic.empty()) {
+    if (scene.fluid->walls == io::WallMethod::normal_flux && !scene.walls.empty()) {
+        fluid::NormalFluxWalls<D>& walls = model->flux_walls.emplace();
+        add_walls(scene, walls.panels);
+        model->moving = moving_walls(scene, walls.panels);
+        if (!model->fluid->flux.is_riemann()) walls.pressure = fluid::WallPressure::extrapolated;
+        model->fluid->wall_friction = fluid::friction_factor(walls.panels, scene.fluid->support_ratio);
+        settle(scene, walls.panels, model->moving);
+    } else if (!scene.walls.empty() || scene.solid || !scene.periodic.empty()) {
         fluid::GhostWalls<D>& walls = model->walls.emplace();
         add_walls(scene, walls.panels);
         make_periodic(scene, walls.periodic, model->fluid->domain);
@@ -91,12 +107,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
             model->interface = make_interface(scene, *model);
         }
     }
-    if (model->walls) {
-        model->walls->panels.update_geometry();
-        model->walls->panels.find_joints();
-        part_moving_walls(scene, model->walls->panels);
-        model->moving.place(model->walls->panels, 0);  // and their velocities
-    }
+    if (model->walls) settle(scene, model->walls->panels, model->moving);
     return model;
 }
 

@@ -12,6 +12,7 @@
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/walls/motion.hpp"
+#include "physics/fluid/walls/normal_flux.hpp"
 #include "physics/fluid/walls/wall_forces.hpp"
 #include "physics/solid/solver.hpp"
 
@@ -23,14 +24,21 @@ struct Model {
     std::optional<fluid::Fluid<D>> fluid;
     std::vector<FilledBody> water;  // how it was filled
     std::optional<fluid::CentralForce<D>> central_force;
-    std::optional<std::array<double, D>> driving_force;  // [m/s²]
-    std::optional<fluid::GhostWalls<D>> walls;
-    fluid::MovingWalls<D> moving;                // those with a prescribed motion
-    std::vector<fluid::WallWork<D>> wall_works;  // of walls whose force is asked for, where energies are kept
+    std::optional<std::array<double, D>> driving_force;   // [m/s²]
+    std::optional<fluid::GhostWalls<D>> walls;            // ghosts …
+    std::optional<fluid::NormalFluxWalls<D>> flux_walls;  // … or normal fluxes
+    fluid::MovingWalls<D> moving;                         // those with a prescribed motion
+    std::vector<fluid::WallWork<D>> wall_works;           // of walls whose force is asked for, where energies are kept
     std::optional<solid::Solver> solid;
     std::optional<coupling::Interface> interface;
     Clock clock;
 };
+
+// The walls' panels, whatever the walls do; there must be walls.
+template <int D>
+const fluid::Panels<D>& panels_of(const Model<D>& model) {
+    return model.flux_walls ? model.flux_walls->panels : model.walls->panels;
+}
 
 // Throws io::SceneError for what only shows once meshes are read: a set that does not exist, water inside the solid.
 // The solid's static start is not computed yet (it costs time): start() does.

@@ -16,7 +16,7 @@ Probe<D>::Probe(const io::Scene& scene, std::size_t number, const Model<D>& mode
     interpolation_ = from.interpolation == io::ProbeInterpolation::linear ? fluid::Interpolation::linear
                                                                           : fluid::Interpolation::shepard;
     for (int d = 0; d < D; ++d) point_[d] = from.point[std::size_t(d)];
-    if (!from.wall.empty()) sit_on_wall(scene, number, model.walls->panels, scene.fluid->spacing);
+    if (!from.wall.empty()) sit_on_wall(scene, number, panels_of(model), scene.fluid->spacing);
     values_.assign(columns().size(), 0.0);
 }
 
@@ -62,7 +62,7 @@ void Probe<D>::measure(const Model<D>& model) {
     fluid::Vec<D> x = point_;
     std::optional<fluid::Vec<D>> side;
     if (panel_ >= 0) {
-        const fluid::Panels<D>& panels = model.walls->panels;
+        const fluid::Panels<D>& panels = panels_of(model);
         const auto k = std::size_t(panel_);
         x.setZero();
         for (std::size_t v = 0; v < D; ++v) x += shape_[v] * panels.vertex(k, v);

@@ -195,7 +195,7 @@ void Results<D>::record_flow() {
                 outline.push_back({x[2 * std::size_t(node)], x[2 * std::size_t(node) + 1]});
         frame.outlines.push_back(std::move(outline));
     }
-    if (model_.walls) frame.walls = moving_panels(scene_, model_.walls->panels);
+    if (model_.walls || model_.flux_walls) frame.walls = moving_panels(scene_, panels_of(model_));
     flow_.add(frame);
 }
 

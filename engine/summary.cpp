@@ -40,6 +40,7 @@ nlohmann::json summary_of(const io::Scene& scene, const Model<D>& model, const R
         summary["particles"] = model.fluid->particles.count;
         summary["particles_removed"] = model.fluid->removed;
         summary["particles_held_back_at_walls"] = model.fluid->held_back;
+        if (model.flux_walls) summary["gamma_at_its_floor"] = model.flux_walls->floor_count;
         summary["neighbour_list_rebuilds"] = model.fluid->rebuilds;
         summary["bytes_per_particle"] = bytes_per_particle(*model.fluid);
     }

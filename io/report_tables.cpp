@@ -37,6 +37,7 @@ std::string fluid_table(const FluidScene& fluid) {
         {"polytropic exponent γ", fmt::format("{:g}", fluid.polytropic_exponent)},
         {"CFL", fmt::format("{:g}", fluid.cfl)},
         {"scheme", scheme_text(fluid)},
+        {"walls", fluid.walls == WallMethod::ghosts ? "ghost particles" : "normal fluxes"},
         {"pressure at t = 0", fluid.initial_pressure == InitialPressure::hydrostatic ? "hydrostatic" : "zero"}};
     for (const Box& b : fluid.boxes) rows.emplace_back("water", box(b));
     return table("Fluid (SPH)", rows);

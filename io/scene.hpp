@@ -22,6 +22,7 @@ struct SourcePosition {
 enum class Reconstruction { muscl, none };
 enum class Slip { free, none, symmetry };
 enum class DomainEdge { closed, open };
+enum class WallMethod { ghosts, normal_flux };
 
 // How pairs of particles act on each other; [fluid.scheme].
 struct FluidScheme {
@@ -58,6 +59,7 @@ struct FluidScene {
     fluid::ViscousOperator viscous_operator = fluid::ViscousOperator::monaghan_gingold;
     fluid::Transport transport = fluid::Transport::none;
     double x_sph = 0.5;  // ε
+    WallMethod walls = WallMethod::ghosts;
     InitialPressure initial_pressure = InitialPressure::hydrostatic;
     std::optional<double> surface_level;  // height at which p = 0 [m]; default: the highest top of the water
     std::vector<WaterBox> boxes;          // filled with particles at the centres of Δx cells

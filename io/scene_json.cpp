@@ -112,6 +112,7 @@ Json to_json(const FluidScene& fluid, int dimension) {
                  {"cfl", fluid.cfl},
                  {"kernel", word(kernel_words, fluid.kernel)},
                  {"integration", word(integration_words, fluid.integration)},
+                 {"walls", fluid.walls == WallMethod::ghosts ? "ghosts" : "normal_flux"},
                  {"initial_pressure", fluid.initial_pressure == InitialPressure::hydrostatic ? "hydrostatic" : "zero"}};
     const FluidScheme& scheme = fluid.scheme;
     json["scheme"] = {{"name", word(scheme_words, scheme.name)}};

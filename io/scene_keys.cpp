@@ -125,6 +125,9 @@ constexpr auto keys = std::to_array<SceneKey>({
      "",
      "rk4: 0.375, rk3: 0.35, verlet: 0.15",
      "K of Δt = K R/c"},
+    {"fluid", "walls", K::choice, false, "", any, "ghosts normal_flux", "ghosts",
+     "particles mirrored through the walls, or fluxes through their surface; the latter for riemann alone, without a "
+     "solid, a periodic domain and an energy ledger; viscosity by morris"},
     {"fluid", "initial_pressure", K::choice, false, "", any, "hydrostatic zero", "hydrostatic", "pressure at t = 0"},
     {"fluid", "surface_level", K::number, false, "m", any, "", "highest top of the water",
      "height (y, in 3D z) at which the hydrostatic pressure is zero"},

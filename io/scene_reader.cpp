@@ -18,8 +18,8 @@
 namespace aquagraph::io {
 namespace {
 
-// K of Δt = K R/c that is stable with room to spare: the dam break at R/Δx 4 blows up at 0.75 (RK4), beyond 0.5 (RK3) and
-// at 0.3 (Verlet).
+// K of Δt = K R/c that is stable with room to spare: the dam break at R/Δx 4 blows up at 0.75 (RK4), beyond 0.5 (RK3)
+// and at 0.3 (Verlet).
 double standard_cfl(fluid::IntegrationScheme scheme) {
     switch (scheme) {
         case fluid::IntegrationScheme::rk3:
@@ -106,6 +106,7 @@ class Filler {
         choose("fluid.viscosity.operator", fluid.viscous_operator, viscous_operator_words);
         choose("fluid.transport.name", fluid.transport, transport_words);
         document_.take("fluid.transport.epsilon", fluid.x_sph);
+        choose("fluid.walls", fluid.walls, {{"ghosts", WallMethod::ghosts}, {"normal_flux", WallMethod::normal_flux}});
         choose("fluid.initial_pressure", fluid.initial_pressure,
                {{"hydrostatic", InitialPressure::hydrostatic}, {"zero", InitialPressure::zero}});
         if (double level = 0; document_.take("fluid.surface_level", level)) fluid.surface_level = level;

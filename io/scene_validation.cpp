@@ -104,6 +104,32 @@ class Validation {
                             "choose [fluid.scheme] name = \"riemann_ale\", or no shifting");
     }
 
+    // What walls of normal fluxes do not go with.
+    void wall_method() {
+        if (!scene_.fluid || scene_.fluid->walls != WallMethod::normal_flux || complaints_.touch("fluid.walls")) return;
+        const FluidScene& fluid = *scene_.fluid;
+        const std::string help = "take [fluid] walls = \"ghosts\"";
+        if (scene_.solid)
+            complaints_.add("fluid.walls", "walls of normal fluxes do not load a solid",
+                            help + ", or take [solid] out");
+        if (!scene_.periodic.empty())
+            complaints_.add("fluid.walls", "walls of normal fluxes have no images in a periodic domain",
+                            help + ", or take [domain] periodic out");
+        // δ-SPH and artificial viscosity have no Riemann problem to put at the wall; without its damping still water
+        // does not stay still. ALE exchanges mass, which the walls do not follow.
+        if (fluid.scheme.name != fluid::Scheme::riemann)
+            complaints_.add("fluid.walls", "walls of normal fluxes need Riemann-SPH without mass exchange",
+                            help + ", or [fluid.scheme] name = \"riemann\"");
+        if (scene_.output.energy_ledger)
+            complaints_.add("fluid.walls", "the energy ledger does not know the work of walls of normal fluxes",
+                            help + ", or energy_ledger = false");
+        if (fluid.viscosity > 0 && fluid.viscous_operator != fluid::ViscousOperator::morris)
+            complaints_.add("fluid.walls",
+                            "Monaghan and Gingold's viscosity lacks the part behind walls of normal fluxes: it would "
+                            "not be consistent next to them",
+                            "take [fluid.viscosity] operator = \"morris\", or [fluid] walls = \"ghosts\"");
+    }
+
     // Whether max lies beyond min; without it no other check of the box makes sense.
     bool ordered(const Box& box, const std::string& key) {
         if (complaints_.touch(key + ".min") || complaints_.touch(key + ".max")) return false;
@@ -396,6 +422,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.periodic(complaints.positions.contains("domain") && !complaints.touch("domain"));
     if (scene.dimension == 2) validation.solid();
     validation.fluid_scheme();
+    validation.wall_method();
     validation.fluid_boxes();
     validation.walls();
     validate_wall_shapes(scene, complaints);

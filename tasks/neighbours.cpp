@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <type_traits>
 
 #include "physics/fluid/rebuild.hpp"
 #include "physics/fluid/travel.hpp"
@@ -13,10 +14,11 @@ namespace aquagraph::tasks {
 
 namespace {
 
-template <int D>
+// Walls: GhostWalls, or NormalFluxWalls, which have no interface with a solid.
+template <int D, class Walls>
 class NeighbourSearchTask {
   public:
-    NeighbourSearchTask(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const fluid::MovingWalls<D>* moving,
+    NeighbourSearchTask(fluid::Fluid<D>& fluid, Walls* walls, const fluid::MovingWalls<D>* moving,
                         coupling::Interface* interface, const Clock& clock)
         : fluid_(fluid), walls_(walls), moving_(moving), interface_(interface), clock_(clock) {}
 
@@ -28,6 +30,8 @@ class NeighbourSearchTask {
     }
 
   private:
+    static constexpr bool ghosts = std::is_same_v<Walls, fluid::GhostWalls<D>>;
+
     fluid::Travel most_travelled() {
         scratch_.resize(fluid_.blocks());
         return reduce_blocks(
@@ -73,10 +77,13 @@ class NeighbourSearchTask {
         if (moving_) moving_->place(walls_->panels, clock_.time);
         if constexpr (D == 2)
             if (interface_) interface_->surface.place(walls_->panels, clock_.elapsed);
-        rebuild_lists(fluid_, walls_, parallel_loop);
+        if constexpr (ghosts)
+            rebuild_lists(fluid_, walls_, parallel_loop);
+        else
+            rebuild_lists(fluid_, *walls_, parallel_loop);
         built_once_ = true;
         if (walls_) built_ = walls_->panels.position;
-        if constexpr (D == 2)
+        if constexpr (D == 2 && ghosts)
             if (interface_) interface_->load.rebuild(particles, fluid_.lists, *walls_);
     }
 
@@ -90,7 +97,7 @@ class NeighbourSearchTask {
     }
 
     fluid::Fluid<D>& fluid_;
-    fluid::GhostWalls<D>* walls_;
+    Walls* walls_;
     const fluid::MovingWalls<D>* moving_;
     coupling::Interface* interface_;
     const Clock& clock_;
@@ -99,19 +106,35 @@ class NeighbourSearchTask {
     std::vector<fluid::Vec<D>> built_;  // vertices of walls when the lists were built
 };
 
-}  // namespace
-
-template <int D>
-Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const fluid::MovingWalls<D>* moving,
-                      coupling::Interface* interface, const Clock& clock, const std::string& label) {
+template <int D, class Walls>
+Task search_task(fluid::Fluid<D>& fluid, Walls* walls, const fluid::MovingWalls<D>* moving,
+                 coupling::Interface* interface, const Clock& clock, const std::string& label) {
     // Held by pointer: the graph copies bodies.
-    auto search = std::make_shared<NeighbourSearchTask<D>>(fluid, walls, moving, interface, clock);
+    auto search = std::make_shared<NeighbourSearchTask<D, Walls>>(fluid, walls, moving, interface, clock);
     return {.name = "neighbour search (" + label + ")",
             .reads = {resource::clock_step, resource::interface_motion},
             .writes = {resource::fluid, resource::walls},
             .body = [search] { (*search)(); }};
 }
 
+}  // namespace
+
+template <int D>
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const fluid::MovingWalls<D>* moving,
+                      coupling::Interface* interface, const Clock& clock, const std::string& label) {
+    return search_task(fluid, walls, moving, interface, clock, label);
+}
+
+template <int D>
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>* moving,
+                      const Clock& clock, const std::string& label) {
+    return search_task(fluid, &walls, moving, nullptr, clock, label);
+}
+
+template Task neighbour_search(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const fluid::MovingWalls<2>*, const Clock&,
+                               const std::string&);
+template Task neighbour_search(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3>*, const Clock&,
+                               const std::string&);
 template Task neighbour_search(fluid::Fluid<2>&, fluid::GhostWalls<2>*, const fluid::MovingWalls<2>*,
                                coupling::Interface*, const Clock&, const std::string&);
 template Task neighbour_search(fluid::Fluid<3>&, fluid::GhostWalls<3>*, const fluid::MovingWalls<3>*,

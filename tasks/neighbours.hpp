@@ -5,6 +5,7 @@
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/walls/motion.hpp"
+#include "physics/fluid/walls/normal_flux.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
@@ -16,5 +17,10 @@ namespace aquagraph::tasks {
 template <int D>
 Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const fluid::MovingWalls<D>* moving,
                       coupling::Interface* interface, const Clock& clock, const std::string& label);
+
+// The same with walls of the normal flux method: which particles see which parts of them is decided here as well.
+template <int D>
+Task neighbour_search(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>* moving,
+                      const Clock& clock, const std::string& label);
 
 }  // namespace aquagraph::tasks

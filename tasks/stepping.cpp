@@ -20,7 +20,7 @@ Task time_step(fluid::Fluid<D>& fluid, Clock& clock, StepChoice choice, const st
                     fluid.blocks(), fluid::StepLimits{},
                     [&](std::size_t block) {
                         return step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
-                                           fluid.kinematic_viscosity());
+                                           fluid.viscosity_of_step());
                     },
                     fluid::combine, std::span<fluid::StepLimits>(*scratch));
                 const double wanted = choice.fraction * limits.step(), left = (clock.end - clock.time) / choice.steps;

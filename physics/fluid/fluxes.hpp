@@ -20,13 +20,12 @@ struct FluxParameters {
     double alpha = 0.01;            // α of δ-SPH and of artificial viscosity
     double gravity[3] = {0, 0, 0};  // [m/s²]
 
+    bool is_riemann() const { return scheme == Scheme::riemann || scheme == Scheme::riemann_ale; }
     // What the scheme reads of the gradient pass, beside the fullness.
     bool reads_pressure_gradient() const {
         return scheme == Scheme::delta_sph || (muscl && scheme != Scheme::artificial_viscosity);
     }
-    bool reads_velocity_gradient() const {
-        return muscl && (scheme == Scheme::riemann || scheme == Scheme::riemann_ale);
-    }
+    bool reads_velocity_gradient() const { return muscl && is_riemann(); }
 };
 
 // Writes acceleration and deviation_rate of these fluid particles (of one block); with mass exchange also mass_rate,

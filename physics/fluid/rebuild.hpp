@@ -2,6 +2,7 @@
 #pragma once
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
+#include "physics/fluid/walls/normal_flux.hpp"
 
 namespace aquagraph::fluid {
 
@@ -9,5 +10,9 @@ namespace aquagraph::fluid {
 // new lists. walls may be null. Vertices of walls must stand where they are now.
 template <int D>
 void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop);
+
+// The same with walls of the normal flux method.
+template <int D>
+void rebuild_lists(Fluid<D>& fluid, NormalFluxWalls<D>& walls, BlockLoop loop);
 
 }  // namespace aquagraph::fluid

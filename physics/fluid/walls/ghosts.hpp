@@ -16,15 +16,10 @@
 #include <array>
 
 #include "physics/fluid/spatial_order.hpp"
+#include "physics/fluid/walls/escape.hpp"
 #include "physics/fluid/walls/visibility.hpp"
 
 namespace aquagraph::fluid {
-
-struct Escape {
-    std::size_t particle = 0;  // the one furthest behind a wall that mirrors it
-    double depth = 0;          // how far behind [m]; 0: none is
-    int panel = -1;
-};
 
 template <int D>
 class GhostWalls {

@@ -1,0 +1,152 @@
+// What walls do to the fluid and the fluid to them, beside the fluxes of a substep.
+#include <cmath>
+
+#include "physics/fluid/walls/wall_flux.hpp"
+
+namespace aquagraph::fluid {
+
+template <int D>
+Vec<D> NormalFluxWalls<D>::shear_rate(const Particles<D>& s, std::size_t i, std::size_t point, double spacing) const {
+    const Vec<D>& n = panels.normal[std::size_t(points.cell[point].panel)];
+    Vec<D> slip;
+    for (int d = 0; d < D; ++d) slip[d] = s.v[std::size_t(d)][i] - points.velocity[std::size_t(d)][point];
+    slip -= slip.dot(n) * n;
+    return slip / std::max((place(s, i) - points.place(point)).dot(n), 0.5 * spacing);
+}
+
+template <int D>
+void NormalFluxWalls<D>::add_shear(Particles<D>& s, const Kernel<D>& kernel, double viscosity, double spacing,
+                                   std::size_t block) const {
+    kernel.visit([&](const auto& k) { add_shear_with(s, k, viscosity, spacing, block); });
+}
+
+template <int D>
+template <class K>
+void NormalFluxWalls<D>::add_shear_with(Particles<D>& s, const K& kernel, double viscosity, double spacing,
+                                        std::size_t block) const {
+    const NearBlock& b = near_[block];
+    for (std::size_t k = 0; k < b.near.size(); ++k) {
+        const std::size_t i = b.near[k].particle;
+        const Vec<D> x = place(s, i);
+        Vec<D> sum = Vec<D>::Zero();
+        const Range range = points_of(b, k);
+        for (std::size_t q = range.begin; q < range.end; ++q) {
+            const std::size_t point = b.point[q];
+            if (point == points.size() || !panels.panels[std::size_t(points.cell[point].panel)].no_slip) continue;
+            sum += 2 * viscosity * kernel.value((points.place(point) - x).norm()) * points.area[point] *
+                   shear_rate(s, i, point, spacing);
+        }
+        for (int d = 0; d < D; ++d) s.acceleration[std::size_t(d)][i] -= s.volume[i] / s.mass[i] * sum[d];
+    }
+}
+
+template <int D>
+void NormalFluxWalls<D>::add_to_vertices(std::size_t point, const Vec<D>& force,
+                                         std::vector<Vec<D>>& vertex_forces) const {
+    const auto& cell = points.cell[point];
+    for (std::size_t a = 0; a < D; ++a)
+        vertex_forces[std::size_t(panels.panels[std::size_t(cell.panel)].vertex[a])] += cell.centre[a] * force;
+}
+
+template <int D>
+void NormalFluxWalls<D>::add_reactions(const Particles<D>& s, const Kernel<D>& kernel, const FluxParameters& parameters,
+                                       std::vector<Vec<D>>& vertex_forces) const {
+    kernel.visit([&](const auto& k) { add_reactions_with(s, k, parameters, vertex_forces); });
+}
+
+template <int D>
+template <class K>
+void NormalFluxWalls<D>::add_reactions_with(const Particles<D>& s, const K& kernel, const FluxParameters& parameters,
+                                            std::vector<Vec<D>>& vertex_forces) const {
+    const PointFields<D> fields(points);
+    for (const NearBlock& b : near_)
+        for (std::size_t k = 0; k < b.near.size(); ++k) {
+            const std::size_t i = b.near[k].particle;
+            Vec<D> rest;
+            for (int d = 0; d < D; ++d) rest[d] = -b.reaction[k * D + std::size_t(d)];
+            const WallFlux<D> own(s, i, parameters, pressure, s.volume[i] / s.mass[i]);
+            const Range range = points_of(b, k);
+            // First the pressure on each point, then the rest on all by weight.
+            double weights = 0, weight = 0, p_s = 0, dilation = 0;
+            for (std::size_t q = range.begin; q < range.end; ++q) {
+                const std::size_t point = b.point[q];
+                if (point == points.size()) continue;
+                own(fields, point, kernel, weight, p_s, dilation);
+                weights += weight;
+                Vec<D> force;
+                for (int d = 0; d < D; ++d) force[d] = s.volume[i] * (own.p + p_s) * weight * fields.n[d][point];
+                rest -= force;
+                add_to_vertices(point, force, vertex_forces);
+            }
+            if (weights == 0) {  // nothing but rounding
+                add_to_vertices(b.point[range.begin], rest, vertex_forces);
+                continue;
+            }
+            for (std::size_t q = range.begin; q < range.end; ++q) {
+                const std::size_t point = b.point[q];
+                if (point == points.size()) continue;
+                own(fields, point, kernel, weight, p_s, dilation);
+                add_to_vertices(point, weight / weights * rest, vertex_forces);
+            }
+        }
+}
+
+template <int D>
+void NormalFluxWalls<D>::add_pressure_forces(const Particles<D>& s, const Kernel<D>& kernel,
+                                             const FluxParameters& parameters, double viscosity,
+                                             std::vector<Vec<D>>& vertex_forces) {
+    kernel.visit([&](const auto& k) { add_pressure_forces_with(s, k, parameters, viscosity, vertex_forces); });
+}
+
+template <int D>
+template <class K>
+void NormalFluxWalls<D>::add_pressure_forces_with(const Particles<D>& s, const K& kernel,
+                                                  const FluxParameters& parameters, double viscosity,
+                                                  std::vector<Vec<D>>& vertex_forces) {
+    const PointFields<D> fields(points);
+    wall_pressure_.assign(points.size(), 0.0);
+    wetness_.assign(points.size(), 0.0);
+    shear_.assign(points.size(), Vec<D>::Zero());
+    for (const NearBlock& b : near_)
+        for (std::size_t k = 0; k < b.near.size(); ++k) {
+            const std::size_t i = b.near[k].particle;
+            WallFlux<D> own(s, i, parameters, pressure, s.volume[i] / s.mass[i]);
+            const Range range = points_of(b, k);
+            own.lower_impedance(fields, &b.point[range.begin], range.end - range.begin, kernel, gamma_[i]);
+            for (std::size_t q = range.begin; q < range.end; ++q) {
+                const std::size_t point = b.point[q];
+                if (point == points.size()) continue;
+                double weight, p_s, dilation;
+                own(fields, point, kernel, weight, p_s, dilation);
+                const double share = kernel.value((points.place(point) - place(s, i)).norm()) * s.volume[i];
+                wall_pressure_[point] += share * p_s;
+                wetness_[point] += share;
+                if (viscosity > 0 && panels.panels[std::size_t(points.cell[point].panel)].no_slip)
+                    shear_[point] += share * viscosity * shear_rate(s, i, point, spacing_);
+            }
+        }
+    for (std::size_t point = 0; point < points.size(); ++point) {
+        if (wetness_[point] == 0) continue;
+        Vec<D> force = shear_[point];
+        for (int d = 0; d < D; ++d) force[d] += wall_pressure_[point] * fields.n[d][point];
+        force *= fields.area[point] / std::max(wetness_[point], least_wetness);
+        add_to_vertices(point, force, vertex_forces);
+    }
+}
+
+template Vec<2> NormalFluxWalls<2>::shear_rate(const Particles<2>&, std::size_t, std::size_t, double) const;
+template Vec<3> NormalFluxWalls<3>::shear_rate(const Particles<3>&, std::size_t, std::size_t, double) const;
+template void NormalFluxWalls<2>::add_to_vertices(std::size_t, const Vec<2>&, std::vector<Vec<2>>&) const;
+template void NormalFluxWalls<3>::add_to_vertices(std::size_t, const Vec<3>&, std::vector<Vec<3>>&) const;
+template void NormalFluxWalls<2>::add_shear(Particles<2>&, const Kernel<2>&, double, double, std::size_t) const;
+template void NormalFluxWalls<3>::add_shear(Particles<3>&, const Kernel<3>&, double, double, std::size_t) const;
+template void NormalFluxWalls<2>::add_reactions(const Particles<2>&, const Kernel<2>&, const FluxParameters&,
+                                                std::vector<Vec<2>>&) const;
+template void NormalFluxWalls<3>::add_reactions(const Particles<3>&, const Kernel<3>&, const FluxParameters&,
+                                                std::vector<Vec<3>>&) const;
+template void NormalFluxWalls<2>::add_pressure_forces(const Particles<2>&, const Kernel<2>&, const FluxParameters&,
+                                                      double, std::vector<Vec<2>>&);
+template void NormalFluxWalls<3>::add_pressure_forces(const Particles<3>&, const Kernel<3>&, const FluxParameters&,
+                                                      double, std::vector<Vec<3>>&);
+
+}  // namespace aquagraph::fluid

@@ -1,0 +1,98 @@
+#include "tasks/flux_walls.hpp"
+
+#include "tasks/parallel_loop.hpp"
+#include "tasks/resources.hpp"
+#include "tasks/statistics.hpp"
+
+namespace aquagraph::tasks {
+
+template <int D>
+Task wall_motion(fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>& moving, const Clock& clock,
+                 double fraction, const std::string& label) {
+    return {.name = "wall motion (" + label + ")",
+            .reads = {resource::clock_step, resource::fluid_lists},
+            .writes = {resource::walls},
+            .body = [&walls, &moving, &clock, fraction] {
+                moving.place(walls.panels, clock.time + fraction * clock.step);
+                walls.update_geometry();
+            }};
+}
+
+template <int D>
+Task wall_gamma(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label) {
+    return {.name = "wall gamma (" + label + ")",
+            .reads = {resource::walls, resource::fluid_lists, resource::fluid_state},
+            .writes = {resource::wall_gamma},
+            .body = [&fluid, &walls] {
+                for_each_block(fluid.blocks(),
+                               [&](std::size_t block) { walls.compute_gamma(fluid.particles, fluid.kernel, block); });
+                walls.floor_count += walls.floored();
+            }};
+}
+
+template <int D>
+Task wall_gradients(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label) {
+    return {.name = "wall gradients (" + label + ")",
+            .reads = {resource::walls, resource::wall_gamma, resource::fluid_lists, resource::fluid_state},
+            .writes = {resource::fluid_gradients, resource::wall_moments},
+            .body = [&fluid, &walls] {
+                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                    walls.complete_gradients(fluid.particles, fluid.lists, fluid.kernel, fluid.flux, block);
+                    report_work(walls.pairs(block));
+                });
+            }};
+}
+
+template <int D>
+Task wall_friction(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label) {
+    return {.name = "wall friction (" + label + ")",
+            .reads = {resource::walls, resource::fluid_lists, resource::fluid_state},
+            .writes = {resource::fluid_rates},
+            .body = [&fluid, &walls] {
+                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                    walls.add_shear(fluid.particles, fluid.kernel, fluid.viscosity.dynamic, fluid.spacing, block);
+                    report_work(walls.pairs(block));
+                });
+            }};
+}
+
+template <int D>
+Task wall_fluxes(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label) {
+    return {.name = "wall fluxes (" + label + ")",
+            .reads = {resource::walls, resource::wall_gamma, resource::wall_moments, resource::fluid_lists,
+                      resource::fluid_state, resource::fluid_gradients},
+            .writes = {resource::fluid_rates},
+            .body = [&fluid, &walls] {
+                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                    walls.add_fluxes(fluid.particles, fluid.kernel, fluid.flux, fluid.tait.reference_density, block);
+                    report_work(walls.pairs(block));
+                });
+            }};
+}
+
+template <int D>
+Task wall_contact(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label) {
+    return {.name = "wall contact (" + label + ")",
+            .reads = {resource::walls, resource::fluid_lists},
+            .writes = {resource::fluid_state},
+            .body = [&fluid, &walls] {
+                book_loss(fluid, [&] { fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing); });
+            }};
+}
+
+template Task wall_motion(fluid::NormalFluxWalls<2>&, const fluid::MovingWalls<2>&, const Clock&, double,
+                          const std::string&);
+template Task wall_motion(fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3>&, const Clock&, double,
+                          const std::string&);
+template Task wall_friction(fluid::Fluid<2>&, const fluid::NormalFluxWalls<2>&, const std::string&);
+template Task wall_friction(fluid::Fluid<3>&, const fluid::NormalFluxWalls<3>&, const std::string&);
+template Task wall_gamma(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
+template Task wall_gamma(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
+template Task wall_gradients(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
+template Task wall_gradients(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
+template Task wall_fluxes(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
+template Task wall_fluxes(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
+template Task wall_contact(fluid::Fluid<2>&, const fluid::NormalFluxWalls<2>&, const std::string&);
+template Task wall_contact(fluid::Fluid<3>&, const fluid::NormalFluxWalls<3>&, const std::string&);
+
+}  // namespace aquagraph::tasks

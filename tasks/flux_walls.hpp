@@ -1,0 +1,31 @@
+// Walls of the normal flux method as tasks: no ghosts, hence no passes over them; instead γ, and what walls add to
+// gradients and fluxes.
+#pragma once
+#include "physics/clock.hpp"
+#include "physics/fluid/fluid.hpp"
+#include "physics/fluid/walls/motion.hpp"
+#include "physics/fluid/walls/normal_flux.hpp"
+#include "tasks/task.hpp"
+
+namespace aquagraph::tasks {
+
+// Moves walls with a prescribed motion to `fraction` of the present step (0 … 1).
+template <int D>
+Task wall_motion(fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>& moving, const Clock& clock,
+                 double fraction, const std::string& label);
+template <int D>
+Task wall_gamma(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
+// After the gradients.
+template <int D>
+Task wall_gradients(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
+// Between fluxes (and viscosity) and wall_fluxes, which divide all of them by γ.
+template <int D>
+Task wall_friction(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label);
+// After the fluxes, before body forces.
+template <int D>
+Task wall_fluxes(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
+// After the last stage: NormalFluxWalls::hold_back.
+template <int D>
+Task wall_contact(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label);
+
+}  // namespace aquagraph::tasks

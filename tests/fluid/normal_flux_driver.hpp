@@ -1,0 +1,110 @@
+// The step of a fluid between normal flux walls without tasks: what engine/listings.cpp lists, written as plain calls.
+#pragma once
+#include <functional>
+
+#include "physics/fluid/walls/normal_flux.hpp"
+#include "tests/fluid/driver.hpp"
+#include "tests/fluid/fixtures.hpp"
+
+namespace aquagraph::fluid::test {
+
+template <int D>
+class FluxDriver {
+  public:
+    FluxDriver(Fluid<D> fluid, Panels<D> panels) : fluid(std::move(fluid)) {
+        walls.panels = std::move(panels);
+        walls.panels.update_geometry();
+        walls.panels.find_joints();
+    }
+
+    Fluid<D> fluid;
+    NormalFluxWalls<D> walls;
+    std::function<void(Panels<D>& panels, double time)> motion;  // places vertices and sets their velocities
+    double time = 0;
+    std::size_t floored = 0;  // summed over substeps
+
+    void rebuild(BlockLoop loop = serial_loop) {
+        if (motion) motion(walls.panels, time);
+        rebuild_lists(fluid, walls, loop);
+        built_ = walls.panels.position;
+    }
+
+    void rates(double at, BlockLoop loop = serial_loop) {
+        auto& s = fluid.particles;
+        if (motion) {
+            motion(walls.panels, at);
+            walls.update_geometry();
+        }
+        loop(fluid.blocks(), [&](std::size_t block) { walls.compute_gamma(s, fluid.kernel, block); });
+        floored += walls.floored();
+        loop(fluid.blocks(), [&](std::size_t block) {
+            compute_gradients(s, fluid.lists, fluid.kernel, fluid.lanes(block), fluid.gradients());
+            walls.complete_gradients(s, fluid.lists, fluid.kernel, fluid.flux, block);
+        });
+        loop(fluid.blocks(), [&](std::size_t block) {
+            compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.lanes(block));
+            if (fluid.viscosity.dynamic > 0) {
+                add_viscosity(s, fluid.lists, fluid.kernel, fluid.viscosity, fluid.lanes(block));
+                walls.add_shear(s, fluid.kernel, fluid.viscosity.dynamic, fluid.spacing, block);
+            }
+            walls.add_fluxes(s, fluid.kernel, fluid.flux, fluid.tait.reference_density, block);
+        });
+    }
+
+    void step(double dt, BlockLoop loop = serial_loop) {
+        if (!lists_hold(dt)) rebuild(loop);
+        for (int stage = 0; stage < fluid.integration.stages(); ++stage) {
+            rates(time + fluid.integration.stage_time(stage) * dt, loop);
+            loop(fluid.blocks(), [&](std::size_t block) {
+                advance_stage(fluid.particles, fluid.integration, fluid.tait, stage, dt, fluid.lanes(block));
+            });
+        }
+        fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing);
+        time += dt;
+    }
+
+    double largest_step() const {
+        StepLimits limits;
+        for (std::size_t block = 0; block < fluid.blocks(); ++block)
+            limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
+                                                 fluid.viscosity_of_step()));
+        return limits.step();
+    }
+
+    void run(double until, BlockLoop loop = serial_loop) {
+        while (time < until * (1 - 1e-12)) step(std::min(largest_step(), until - time), loop);
+    }
+
+    Vec<D> total_force() const {
+        std::vector<Vec<D>> forces(walls.panels.position.size(), Vec<D>::Zero());
+        walls.add_reactions(fluid.particles, fluid.kernel, fluid.flux, forces);
+        Vec<D> total = Vec<D>::Zero();
+        for (const auto& f : forces) total += f;
+        return total;
+    }
+
+  private:
+    bool lists_hold(double dt) const {
+        if (fluid.rebuilds == 0) return false;
+        const auto& s = fluid.particles;
+        double displacement2 = 0, speed2 = 0, wall2 = 0, wall_speed2 = 0;
+        for (std::size_t block = 0; block < fluid.blocks(); ++block)
+            displacement2 = std::max(displacement2, largest_displacement_squared(s, block));
+        for (std::size_t i = 0; i < s.count; ++i) {
+            double v2 = 0;
+            for (std::size_t d = 0; d < D; ++d) v2 += s.v[d][i] * s.v[d][i];
+            speed2 = std::max(speed2, v2);
+        }
+        for (std::size_t k = 0; k < built_.size(); ++k) {
+            wall2 = std::max(wall2, (walls.panels.position[k] - built_[k]).squaredNorm());
+            wall_speed2 = std::max(wall_speed2, walls.panels.velocity[k].squaredNorm());
+        }
+        const double moved =
+            std::sqrt(displacement2) + std::sqrt(wall2) + dt * (std::sqrt(speed2) + std::sqrt(wall_speed2));
+        return moved < 0.5 * fluid.lists.skin;
+    }
+
+    std::vector<Vec<D>> built_;
+};
+
+}  // namespace aquagraph::fluid::test
