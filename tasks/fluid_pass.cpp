@@ -27,7 +27,7 @@ template <int D>
 Task fluxes(fluid::Fluid<D>& fluid, const std::string& label) {
     return {.name = "fluxes (" + label + ")",
             .reads = {resource::fluid_lists, resource::fluid_state, resource::fluid_ghosts, resource::fluid_gradients,
-                      resource::ghost_gradients},
+                      resource::ghost_gradients, resource::fluid_shift},
             .writes = {resource::fluid_rates},
             .body = [&fluid] {
                 for_each_block(fluid.blocks(), [&](std::size_t block) {
@@ -93,19 +93,20 @@ Task shifting(fluid::Fluid<D>& fluid, const std::string& label) {
 
 template <int D>
 Task energy_ledger(fluid::Fluid<D>& fluid, const Clock& clock, int stage, const std::string& label) {
-    return {.name = "energy ledger (" + label + ")",
-            .reads = {resource::clock_step, resource::fluid_lists, resource::fluid_state, resource::fluid_ghosts,
-                      resource::fluid_gradients, resource::ghost_gradients, resource::fluid_rates},
-            .writes = {resource::fluid_ledger},
-            .body = [&fluid, &clock, stage] {
-                fluid.ledger.part.resize(fluid.blocks());
-                for_each_block(fluid.blocks(), [&](std::size_t block) {
-                    fluid.ledger.part[block] = energy_rates(fluid.particles, fluid.lists, fluid.kernel, fluid.flux,
-                                                            fluid.tait, fluid.viscosity, fluid.lanes(block));
-                    report_work(fluid.lists.blocks[block].pairs);
-                });
-                fluid.ledger.accumulate(fluid.integration.scheme, stage, clock.step);
-            }};
+    return {
+        .name = "energy ledger (" + label + ")",
+        .reads = {resource::clock_step, resource::fluid_lists, resource::fluid_state, resource::fluid_ghosts,
+                  resource::fluid_gradients, resource::ghost_gradients, resource::fluid_rates, resource::fluid_shift},
+        .writes = {resource::fluid_ledger},
+        .body = [&fluid, &clock, stage] {
+            fluid.ledger.part.resize(fluid.blocks());
+            for_each_block(fluid.blocks(), [&](std::size_t block) {
+                fluid.ledger.part[block] = energy_rates(fluid.particles, fluid.lists, fluid.kernel, fluid.flux,
+                                                        fluid.tait, fluid.viscosity, fluid.lanes(block));
+                report_work(fluid.lists.blocks[block].pairs);
+            });
+            fluid.ledger.accumulate(fluid.integration.scheme, stage, clock.step);
+        }};
 }
 
 template <int D>

@@ -63,20 +63,20 @@ Task ghost_gradients(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, 
 template <int D>
 Task wall_work(const fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, std::vector<fluid::WallWork<D>>& works,
                const Clock& clock, int stage, const std::string& label) {
-    return {.name = "wall work (" + label + ")",
-            .reads = {resource::clock_step, resource::fluid_lists, resource::fluid_state, resource::fluid_ghosts,
-                      resource::fluid_gradients, resource::ghost_gradients, resource::fluid_rates},
-            .writes = {resource::fluid_ledger},
-            .body = [&fluid, &walls, &works, &clock, stage] {
-                for (fluid::WallWork<D>& work : works) {
-                    work.pairs.rebuild(fluid, walls);
-                    work.ledger.part.resize(work.pairs.blocks());
-                    for_each_block(work.pairs.blocks(), [&](std::size_t block) {
-                        work.ledger.part[block] = work.pairs.power(fluid, block);
-                    });
-                    work.ledger.accumulate(fluid.integration.scheme, stage, clock.step);
-                }
-            }};
+    return {
+        .name = "wall work (" + label + ")",
+        .reads = {resource::clock_step, resource::fluid_lists, resource::fluid_state, resource::fluid_ghosts,
+                  resource::fluid_gradients, resource::ghost_gradients, resource::fluid_rates, resource::fluid_shift},
+        .writes = {resource::fluid_ledger},
+        .body = [&fluid, &walls, &works, &clock, stage] {
+            for (fluid::WallWork<D>& work : works) {
+                work.pairs.rebuild(fluid, walls);
+                work.ledger.part.resize(work.pairs.blocks());
+                for_each_block(work.pairs.blocks(),
+                               [&](std::size_t block) { work.ledger.part[block] = work.pairs.power(fluid, block); });
+                work.ledger.accumulate(fluid.integration.scheme, stage, clock.step);
+            }
+        }};
 }
 
 template Task wall_work(const fluid::Fluid<2>&, const fluid::GhostWalls<2>&, std::vector<fluid::WallWork<2>>&,
