@@ -19,7 +19,7 @@ namespace aquagraph::benchmarks {
 namespace {
 
 struct Measured {
-    double seconds_per_step;  // the mean of a round, for now and then lists are rebuilt; the median of the rounds
+    double seconds_per_step;  // of a round the mean, as steps with and without a rebuild differ; of the rounds the median
     std::size_t particles;
     Times parts;  // seconds of all steps
     int steps;
