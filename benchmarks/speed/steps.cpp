@@ -19,7 +19,8 @@ namespace aquagraph::benchmarks {
 namespace {
 
 struct Measured {
-    double seconds_per_step;  // of a round the mean, as steps with and without a rebuild differ; of the rounds the median
+    double
+        seconds_per_step;  // of a round the mean, as steps with and without a rebuild differ; of the rounds the median
     std::size_t particles;
     Times parts;  // seconds of all steps
     int steps;
