@@ -42,6 +42,7 @@ nlohmann::json summary_of(const io::Scene& scene, const Model<D>& model, const R
         summary["particles_held_back_at_walls"] = model.fluid->held_back;
         if (model.flux_walls) summary["gamma_at_its_floor"] = model.flux_walls->floor_count;
         summary["neighbour_list_rebuilds"] = model.fluid->rebuilds;
+        summary["steps_that_outran_their_lists"] = model.fluid->outrun;
         summary["bytes_per_particle"] = bytes_per_particle(*model.fluid);
     }
     for (const FilledBody& body : model.water) {

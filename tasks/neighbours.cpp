@@ -24,9 +24,12 @@ class NeighbourSearchTask {
 
     void operator()() {
         const fluid::Travel travel = most_travelled();
+        // The lists of the last step allowed for a certain way; how fast particles are now says how far they went.
+        if (2 * last_step_ * std::sqrt(travel.speed2) > last_skin_) ++fluid_.outrun;
         if (!lists_hold(travel)) rebuild();
-        fluid::prune(fluid_.particles, fluid_.lists,
-                     fluid::skin_of_step(travel, clock_.step, walls_travel(), fluid_.lists.radius), parallel_loop);
+        last_step_ = clock_.step;
+        last_skin_ = fluid::skin_of_step(travel, clock_.step, walls_travel(), fluid_.lists.radius);
+        fluid::prune(fluid_.particles, fluid_.lists, last_skin_, parallel_loop);
     }
 
   private:
@@ -102,6 +105,7 @@ class NeighbourSearchTask {
     coupling::Interface* interface_;
     const Clock& clock_;
     std::vector<fluid::Travel> scratch_;
+    double last_step_ = 0, last_skin_ = 0;
     bool built_once_ = false;           // by this task: lists from before the run do not say where walls stood
     std::vector<fluid::Vec<D>> built_;  // vertices of walls when the lists were built
 };

@@ -44,6 +44,7 @@ struct Fluid {
     EnergyLedger ledger;
 
     long rebuilds = 0;          // of the lists
+    long outrun = 0;            // steps in which some particle went further than the step's lists allowed for
     std::size_t removed = 0;    // particles that have left an open domain
     std::size_t held_back = 0;  // times that a lone particle was stopped at a wall (walls/ghosts.hpp)
 

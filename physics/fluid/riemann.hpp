@@ -69,6 +69,7 @@ namespace detail {
 [[gnu::always_inline]] inline double water_compression(double p_over_B) {
     const double target = 1 + std::max(p_over_B, -0.5);
     double x = 1 + (target - 1) / (7 + 3 * (target - 1));
+#pragma GCC unroll 4
     for (int k = 0; k < 4; ++k) {
         const double x2 = x * x, x6 = x2 * x2 * x2;
         x -= (x6 * x - target) / (7 * x6);
@@ -81,6 +82,7 @@ namespace detail {
 // exact for the weakest of shocks: (y - x) sqrt(S/(7 x y)), B = ρ0 c0²/7.
 [[gnu::always_inline]] inline void water_wave(double x, double y, double& jump, double& slope) {
     double S = 1, dS = 0, power = 1;  // Horner in y with coefficients 1, x, … x⁶
+#pragma GCC unroll 6
     for (int k = 0; k < 6; ++k) {
         power *= x;
         dS = dS * y + S;
@@ -100,6 +102,7 @@ namespace detail {
     const double x_L = detail::water_compression(p_L * inverse_B), x_R = detail::water_compression(p_R * inverse_B);
     const double approach = (u_L - u_R) / c0;
     double y = 0.5 * (x_L + x_R) + 0.5 * approach, f_L = 0, f_R = 0, slope_L, slope_R;
+#pragma GCC unroll 5
     for (int k = 0; k < 5; ++k) {
         y = std::max(y, 0.5);
         detail::water_wave(x_L, y, f_L, slope_L);
