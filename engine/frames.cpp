@@ -1,5 +1,6 @@
 #include "engine/frames.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "io/vtk_hdf.hpp"
@@ -29,33 +30,54 @@ void write_fluid_frame(const std::filesystem::path& file, const fluid::Fluid<D>&
     io::write_vtk_hdf(file, frame);
 }
 
-void write_solid_frame(const std::filesystem::path& file, const solid::Solver& solver, double time) {
+namespace {
+
+template <int D>
+io::CellType cell_type(const solid::Element& element) {
+    if (D == 2) return element.size() == 4 ? io::CellType::quad : io::CellType::quadratic_quad;
+    return element.size() == 8    ? io::CellType::hexahedron
+           : element.size() == 10 ? io::CellType::quadratic_tetra
+                                  : io::CellType::quadratic_hexahedron;
+}
+
+}  // namespace
+
+template <int D>
+void write_solid_frame(const std::filesystem::path& file, const solid::Solver<D>& solver, double time) {
     const std::size_t nodes = solver.mesh().nodes.size();
-    const auto component = [&](std::span<const double> values, std::size_t d) {
-        std::vector<double> one(nodes);
-        for (std::size_t n = 0; n < nodes; ++n) one[n] = values[2 * n + d];
-        return one;
+    using Components = std::array<std::vector<double>, D>;
+    const auto components = [&](std::span<const double> values) {
+        Components parts;
+        for (std::size_t d = 0; d < D; ++d)
+            for (std::size_t n = 0; n < nodes; ++n) parts[d].push_back(values[D * n + d]);
+        return parts;
     };
-    const auto x = component(solver.positions(), 0), y = component(solver.positions(), 1),
-               ux = component(solver.displacements(), 0), uy = component(solver.displacements(), 1),
-               vx = component(solver.velocities(), 0), vy = component(solver.velocities(), 1);
+    const Components x = components(solver.positions()), u = components(solver.displacements()),
+                     v = components(solver.velocities());
     std::vector<double> stress(solver.mesh().elements.size());
     solver.element_stress(stress);
     std::vector<std::int32_t> connectivity;
     for (const auto& element : solver.mesh().elements)
         connectivity.insert(connectivity.end(), element.begin(), element.end());
-    const auto array = [](const std::vector<double>& v) { return io::VtkValues(std::span<const double>(v)); };
+    const auto vector = [](const std::string& name, const Components& parts) {
+        io::VtkArray array{name, {}};
+        for (const auto& part : parts) array.components.push_back(std::span<const double>(part));
+        return array;
+    };
     io::VtkFrame frame;
-    frame.x = x;
-    frame.y = y;
+    frame.x = x[0];
+    frame.y = x[1];
+    if constexpr (D == 3) frame.z = x[2];
     frame.time = time;
-    frame.cell_type = io::CellType::quadratic_quad;
+    frame.cell_type = cell_type<D>(solver.mesh().elements.front());
     frame.connectivity = connectivity;
-    frame.point_arrays = {{"displacement", {array(ux), array(uy)}}, {"velocity", {array(vx), array(vy)}}};
-    frame.cell_arrays = {{"von_mises_stress", {array(stress)}}};
+    frame.point_arrays = {vector("displacement", u), vector("velocity", v)};
+    frame.cell_arrays = {{"von_mises_stress", {std::span<const double>(stress)}}};
     io::write_vtk_hdf(file, frame);
 }
 
+template void write_solid_frame(const std::filesystem::path&, const solid::Solver<2>&, double);
+template void write_solid_frame(const std::filesystem::path&, const solid::Solver<3>&, double);
 template void write_fluid_frame(const std::filesystem::path&, const fluid::Fluid<2>&, double);
 template void write_fluid_frame(const std::filesystem::path&, const fluid::Fluid<3>&, double);
 

@@ -12,6 +12,7 @@ namespace aquagraph::engine {
 template <int D>
 void write_fluid_frame(const std::filesystem::path& file, const fluid::Fluid<D>& fluid, double time);
 // The deformed mesh in double precision, with displacement, velocity and von Mises stress.
-void write_solid_frame(const std::filesystem::path& file, const solid::Solver& solver, double time);
+template <int D>
+void write_solid_frame(const std::filesystem::path& file, const solid::Solver<D>& solver, double time);
 
 }  // namespace aquagraph::engine

@@ -17,7 +17,8 @@ std::string per_depth(const std::string& unit) {
     return D == 2 ? unit + "/m" : unit;
 }
 
-HistoryPart tracks(const io::Scene& scene, const solid::Solver& solid) {
+template <int D>
+HistoryPart tracks(const io::Scene& scene, const solid::Solver<D>& solid) {
     HistoryPart part;
     std::vector<std::size_t> nodes;
     for (const io::Track& track : scene.solid->tracks) {
@@ -26,7 +27,7 @@ HistoryPart tracks(const io::Scene& scene, const solid::Solver& solid) {
     }
     part.append = [&solid, nodes](std::vector<double>& row) {
         for (const std::size_t node : nodes)
-            for (std::size_t d = 0; d < 2; ++d) row.push_back(solid.displacements()[2 * node + d]);
+            for (std::size_t d = 0; d < D; ++d) row.push_back(solid.displacements()[D * node + d]);
     };
     return part;
 }
@@ -81,7 +82,8 @@ HistoryPart energy_balance(const Model<D>& model) {
             }};
 }
 
-HistoryPart solid_energies(const solid::Solver& solid) {
+template <int D>
+HistoryPart solid_energies(const solid::Solver<D>& solid) {
     return {{{"solid_kinetic_energy", "J/m"}, {"solid_strain_energy", "J/m"}, {"solid_external_work", "J/m"}},
             [&solid](std::vector<double>& row) {
                 const solid::Energies energies = solid.energies();

@@ -29,7 +29,7 @@ struct Model {
     std::optional<fluid::NormalFluxWalls<D>> flux_walls;  // … or normal fluxes
     fluid::MovingWalls<D> moving;                         // those with a prescribed motion
     std::vector<fluid::WallWork<D>> wall_works;           // of walls whose force is asked for, where energies are kept
-    std::optional<solid::Solver> solid;
+    std::optional<solid::Solver<D>> solid;
     std::optional<coupling::Interface> interface;
     Clock clock;
 };

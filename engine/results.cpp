@@ -70,7 +70,8 @@ Results<D>::Results(const io::Scene& scene, Model<D>& model, std::filesystem::pa
       flow_(scene.fluid ? scene.fluid->spacing : 1.0) {
     remove_old_frames(folder_);
     history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", columns_);
-    if (model.solid) boundary_ = solid::chain(solid::boundary_edges(model.solid->mesh()));
+    if constexpr (D == 2)
+        if (model.solid) boundary_ = solid::chain(solid::boundary_facets(model.solid->mesh()));
 }
 
 template <int D>
@@ -190,9 +191,9 @@ void Results<D>::record_flow() {
     if (model_.solid) {
         const auto x = model_.solid->positions();
         std::vector<io::Point> outline;
-        for (const auto& [begin, end, middle] : boundary_)
-            for (const int node : {begin, middle})
-                outline.push_back({x[2 * std::size_t(node)], x[2 * std::size_t(node) + 1]});
+        for (const solid::Facet& edge : boundary_)
+            for (std::size_t k = 0; k < edge.size(); ++k)
+                if (k != 1) outline.push_back({x[2 * std::size_t(edge[k])], x[2 * std::size_t(edge[k]) + 1]});
         frame.outlines.push_back(std::move(outline));
     }
     if (model_.walls || model_.flux_walls) frame.walls = moving_panels(scene_, panels_of(model_));

@@ -52,7 +52,7 @@ class Results {
     std::vector<double> row_;
     io::FrameSeries fluid_series_, solid_series_;
     io::FlowRecord flow_;
-    std::vector<solid::SurfaceEdge> boundary_;
+    std::vector<solid::Facet> boundary_;
     double next_frame_ = 0, next_row_ = 0;
     double row_time_ = -1, frame_time_ = -1;  // of the last ones written
     int frames_ = 0;

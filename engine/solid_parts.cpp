@@ -14,7 +14,7 @@ namespace aquagraph::engine {
 
 namespace {
 
-solid::Mesh make_mesh(const io::Scene& scene) {
+solid::Mesh<2> make_mesh(const io::Scene& scene) {
     const io::SolidScene& from = *scene.solid;
     if (from.box)
         return solid::box_mesh(from.box->min.as<2>(), from.box->max.as<2>(), from.elements[0], from.elements[1]);
@@ -30,9 +30,10 @@ solid::Mesh make_mesh(const io::Scene& scene) {
 }
 
 // Even–odd rule on the boundary of the mesh.
-bool inside(const solid::Mesh& mesh, const std::vector<solid::SurfaceEdge>& boundary, double x, double y) {
+bool inside(const solid::Mesh<2>& mesh, const std::vector<solid::Facet>& boundary, double x, double y) {
     bool odd = false;
-    for (const auto& [a, b, middle] : boundary) {
+    for (const solid::Facet& edge : boundary) {
+        const int a = edge[0], b = edge[1];
         const auto &p = mesh.nodes[std::size_t(a)], &q = mesh.nodes[std::size_t(b)];
         if ((p[1] > y) != (q[1] > y) && x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0])) odd = !odd;
     }
@@ -50,7 +51,7 @@ std::string body_of(const Model<2>& model, std::size_t particle) {
 
 void refuse_water_inside(const io::Scene& scene, const Model<2>& model) {
     const auto& mesh = model.solid->mesh();
-    const auto boundary = solid::boundary_edges(mesh);
+    const auto boundary = solid::boundary_facets(mesh);
     const auto& particles = model.fluid->particles;
     for (std::size_t i = 0; i < particles.count; ++i)
         if (inside(mesh, boundary, particles.x[0][i], particles.x[1][i]))
@@ -62,22 +63,22 @@ void refuse_water_inside(const io::Scene& scene, const Model<2>& model) {
 
 }  // namespace
 
-solid::Solver make_solid(const io::Scene& scene) {
+solid::Solver<2> make_solid(const io::Scene& scene) {
     const io::SolidScene& from = *scene.solid;
-    solid::Options options;
-    options.law = from.law == io::MaterialLaw::neo_hookean ? solid::MaterialLaw::neo_hookean
-                                                           : solid::MaterialLaw::saint_venant_kirchhoff;
+    solid::Options<2> options;
+    options.material.law = from.law == io::MaterialLaw::neo_hookean ? solid::MaterialLaw::neo_hookean
+                                                                    : solid::MaterialLaw::saint_venant_kirchhoff;
     options.plane =
         from.plane == io::PlaneCondition::stress ? solid::PlaneCondition::stress : solid::PlaneCondition::strain;
-    options.youngs_modulus = from.youngs_modulus;
-    options.poissons_ratio = from.poissons_ratio;
-    options.density = from.density;
+    options.material.youngs_modulus = from.youngs_modulus;
+    options.material.poissons_ratio = from.poissons_ratio;
+    options.material.density = from.density;
     options.gravity = scene.gravity.as<2>();
     options.scheme = from.scheme == io::SolidScheme::newmark ? solid::Scheme::newmark : solid::Scheme::hht;
     options.alpha = from.alpha;
     for (const io::Clamp& clamp : from.clamps) options.clamps.push_back({clamp.set, clamp.fixed});
     try {
-        return solid::Solver(make_mesh(scene), options);
+        return solid::Solver<2>(make_mesh(scene), options);
     } catch (const std::invalid_argument& error) {
         throw io::scene_error(scene, "solid", error.what(), "see [solid] in SCENES.md");
     }
@@ -119,17 +120,22 @@ void start_solid(Model<2>& model, const io::Scene& scene) {
     interface.solid_loads = interface.fluid_loads;
 }
 
-std::size_t nearest_node(const solid::Mesh& mesh, const io::Point& point) {
+template <int D>
+std::size_t nearest_node(const solid::Mesh<D>& mesh, const io::Point& point) {
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::max();
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-        const double dx = mesh.nodes[n][0] - point[0], dy = mesh.nodes[n][1] - point[1];
-        if (dx * dx + dy * dy < least) {
-            least = dx * dx + dy * dy;
+        double distance2 = 0;
+        for (std::size_t d = 0; d < D; ++d) distance2 += (mesh.nodes[n][d] - point[d]) * (mesh.nodes[n][d] - point[d]);
+        if (distance2 < least) {
+            least = distance2;
             nearest = n;
         }
     }
     return nearest;
 }
+
+template std::size_t nearest_node(const solid::Mesh<2>&, const io::Point&);
+template std::size_t nearest_node(const solid::Mesh<3>&, const io::Point&);
 
 }  // namespace aquagraph::engine

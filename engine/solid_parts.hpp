@@ -5,7 +5,7 @@
 namespace aquagraph::engine {
 
 // Throws io::SceneError where the mesh cannot be read or a set does not exist.
-solid::Solver make_solid(const io::Scene& scene);
+solid::Solver<2> make_solid(const io::Scene& scene);
 
 // Adds the wet surface to the model's walls. Throws io::SceneError for water inside the solid and for surfaces that the
 // mesh does not have.
@@ -15,6 +15,7 @@ coupling::Interface make_interface(const io::Scene& scene, Model<2>& model);
 void start_solid(Model<2>& model, const io::Scene& scene);
 
 // The node that a track follows: the nearest to its point in the reference configuration.
-std::size_t nearest_node(const solid::Mesh& mesh, const io::Point& point);
+template <int D>
+std::size_t nearest_node(const solid::Mesh<D>& mesh, const io::Point& point);
 
 }  // namespace aquagraph::engine

@@ -131,6 +131,8 @@ int nodes_per_cell(CellType type) {
             return 6;
         case CellType::quadratic_quad:
             return 8;
+        case CellType::quadratic_tetra:
+            return 10;
         case CellType::quadratic_hexahedron:
             return 20;
     }

@@ -19,6 +19,7 @@ enum class CellType : std::uint8_t {
     quadratic_edge = 21,
     quadratic_triangle = 22,
     quadratic_quad = 23,
+    quadratic_tetra = 24,
     quadratic_hexahedron = 25
 };
 int nodes_per_cell(CellType type);

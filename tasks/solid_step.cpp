@@ -7,7 +7,7 @@
 
 namespace aquagraph::tasks {
 
-Task newton_solve(solid::Solver& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads) {
+Task newton_solve(solid::Solver<2>& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads) {
     const bool parallel = loads == LoadsOf::last_exchange;
     const std::vector<double>& nodal = parallel ? interface.solid_loads : interface.fluid_loads;
     return {.name = "FE Newton solve",
@@ -51,7 +51,7 @@ Task interface_loads(fluid::Fluid<2>& fluid, const fluid::GhostWalls<2>& walls, 
             }};
 }
 
-Task exchange(const solid::Solver& solid, coupling::Interface& interface, Clock& clock) {
+Task exchange(const solid::Solver<2>& solid, coupling::Interface& interface, Clock& clock) {
     return {.name = "exchange",
             .reads = {resource::solid_state, resource::interface_loads},
             .writes = {resource::interface_motion, resource::solid_loads, resource::clock_step},

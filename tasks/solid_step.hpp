@@ -14,13 +14,13 @@ namespace aquagraph::tasks {
 enum class LoadsOf { last_exchange, this_cycle };
 
 // Advances the solid over the cycle: one step of clock.cycle.
-Task newton_solve(solid::Solver& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads);
+Task newton_solve(solid::Solver<2>& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads);
 
 // Gradients of the particles that the load reads, at the end of the fluid's steps.
 Task interface_gradients(fluid::Fluid<2>& fluid, const coupling::Interface& interface);
 // The fluid's load on every wet node.
 Task interface_loads(fluid::Fluid<2>& fluid, const fluid::GhostWalls<2>& walls, coupling::Interface& interface);
 // Hands loads to the solid and wet nodes to the fluid, and starts a new cycle.
-Task exchange(const solid::Solver& solid, coupling::Interface& interface, Clock& clock);
+Task exchange(const solid::Solver<2>& solid, coupling::Interface& interface, Clock& clock);
 
 }  // namespace aquagraph::tasks

@@ -6,7 +6,7 @@
 
 namespace aquagraph::coupling {
 
-WetSurface::WetSurface(const solid::Mesh& mesh, const std::vector<std::string>& surfaces, const std::string& name,
+WetSurface::WetSurface(const solid::Mesh<2>& mesh, const std::vector<std::string>& surfaces, const std::string& name,
                        fluid::Panels<2>& panels)
     : first_vertex_(panels.position.size()), wall_(int(panels.names.size())) {
     panels.names.push_back(name);
@@ -22,10 +22,12 @@ WetSurface::WetSurface(const solid::Mesh& mesh, const std::vector<std::string>& 
         return place->second;
     };
     for (const std::string& surface : surfaces) {
-        for (const auto& [begin, end, middle] : mesh.surface(surface)) {
+        for (const solid::Facet& edge : mesh.surface(surface)) {
             // Edges keep the solid on their left, panels keep the fluid there: walk the other way.
-            const int a = vertex(end), m = vertex(middle), b = vertex(begin);
-            panels.panels.push_back({{a, m}, wall_, false, true});
+            const int a = vertex(edge[1]);
+            const int m = edge.size() == 3 ? vertex(edge[2]) : a;
+            const int b = vertex(edge[0]);
+            if (m != a) panels.panels.push_back({{a, m}, wall_, false, true});
             panels.panels.push_back({{m, b}, wall_, false, true});
         }
     }

@@ -17,7 +17,7 @@ class WetSurface {
   public:
     WetSurface() = default;
     // Adds the panels of these surfaces to `panels`, as one wall. Throws std::invalid_argument for an unknown surface.
-    WetSurface(const solid::Mesh& mesh, const std::vector<std::string>& surfaces, const std::string& name,
+    WetSurface(const solid::Mesh<2>& mesh, const std::vector<std::string>& surfaces, const std::string& name,
                fluid::Panels<2>& panels);
 
     // Takes the solid's state, interleaved x and y per node.

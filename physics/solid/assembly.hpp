@@ -2,8 +2,8 @@
 // mass matrix, the sparse system matrix. Every sum runs over a precomputed list in a fixed order, so that blocks may be
 // done by any number of threads and the bits stay the same. Nothing here allocates once constructed.
 #pragma once
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -11,33 +11,34 @@
 #include "physics/block_loop.hpp"
 #include "physics/solid/element_group.hpp"
 #include "physics/solid/mesh.hpp"
-#include "physics/solid/solver.hpp"
+#include "physics/solid/options.hpp"
 
 namespace aquagraph::solid {
 
 // Rows of contributions: those to row r are entries[starts[r]] … entries[starts[r + 1] - 1].
 struct Lists {
-    std::vector<std::size_t> starts, entries;
+    std::vector<std::size_t> starts;
+    std::vector<std::uint32_t> entries;
 };
 
+template <int D>
 class Assembly {
   public:
     // Throws std::invalid_argument for an unknown set or a law that there is not.
-    Assembly(const Mesh& mesh, const Options& options);
+    Assembly(const Mesh<D>& mesh, const Options<D>& options);
 
     std::size_t nodes() const { return node_elements_.starts.size() - 1; }
     std::size_t equations() const { return freedoms_.size(); }
-    const std::vector<int>& equation_of() const { return equation_of_; }           // of 2 node + direction; -1: clamped
-    const std::vector<std::size_t>& freedoms() const { return freedoms_; }         // 2 node + direction, of an equation
-    const std::vector<double>& gravity_forces() const { return gravity_forces_; }  // ∫ ρ g N dV, 2 × nodes [N]
+    const std::vector<int>& equation_of() const { return equation_of_; }           // of D node + direction; -1: held
+    const std::vector<std::size_t>& freedoms() const { return freedoms_; }         // D node + direction, of an equation
+    const std::vector<double>& gravity_forces() const { return gravity_forces_; }  // ∫ ρ g N dV, D × nodes [N]
     double mass() const { return mass_; }                                          // [kg]
-    const ElementGroup& elements() const { return *elements_; }
 
-    // F_int(u), 2 × nodes. Returns the smallest det F of all Gauss points: not positive means that an element is inside
+    // F_int(u), D × nodes. Returns the smallest det F of all Gauss points: not positive means that an element is inside
     // out.
     double internal_forces(std::span<const double> u, std::span<double> forces, BlockLoop loop);
 
-    // y = M x with the consistent mass, 2 × nodes, clamped ones included.
+    // y = M x with the consistent mass, D × nodes, held ones included.
     void multiply_mass(std::span<const double> x, std::span<double> y, BlockLoop loop) const;
 
     // The pattern of the lower triangle over the equations, by columns (CSC).
@@ -50,13 +51,32 @@ class Assembly {
     // The diagonal of K(u) in the last system_matrix, by equation [N/m].
     const std::vector<double>& stiffness_diagonal() const { return stiffness_diagonal_; }
 
-  private:
-    void number_equations(const Mesh& mesh, const std::vector<Clamp>& clamps);
-    void list_node_elements(const Mesh& mesh);
-    void build_mass(const Mesh& mesh, const Options& options);
-    void build_pattern(const Mesh& mesh);
+    double energy(std::span<const double> u) const;                             // ∫ W dV [J]
+    void von_mises(std::span<const double> u, std::span<double> stress) const;  // one per element [Pa]
 
-    std::unique_ptr<ElementGroup> elements_;
+  private:
+    struct Part {
+        std::unique_ptr<ElementGroup<D>> elements;
+        std::size_t first_force = 0, first_matrix = 0, first_pack = 0;  // of its packs, in the arrays of all groups
+    };
+    struct NodeGraph {  // nodes that share an element, ascending
+        std::vector<std::size_t> starts;
+        std::vector<int> neighbours;
+    };
+
+    void make_groups(const Mesh<D>& mesh, const Options<D>& options);
+    void number_equations(const Mesh<D>& mesh, const std::vector<Clamp<D>>& clamps);
+    void list_node_elements(const Mesh<D>& mesh);
+    void build_mass(const Mesh<D>& mesh, const Options<D>& options, const NodeGraph& graph);
+    void build_pattern(const Mesh<D>& mesh, const NodeGraph& graph);
+
+    // Calls body(part, first pack, last pack) for blocks of packs of all groups.
+    template <class Body>
+    void for_packs(std::size_t work_per_block, BlockLoop loop, const Body& body) const;
+
+    std::vector<Part> parts_;
+    std::size_t packs_ = 0;
+    std::vector<const Material*> material_of_;  // element; only while building
     std::vector<int> equation_of_;
     std::vector<std::size_t> freedoms_;
     std::vector<double> gravity_forces_;
@@ -64,14 +84,14 @@ class Assembly {
 
     Lists node_elements_;                              // of a node: where its x forces lie in element_forces_
     std::vector<double> element_forces_, smallest_J_;  // by pack
-    std::vector<std::array<double, quad8::node_count * quad8::node_count>> element_mass_;  // [8 a + b], one direction
 
-    Lists mass_columns_;  // rows of M over the nodes
+    std::vector<std::size_t> mass_starts_;  // rows of M over the nodes
+    std::vector<int> mass_columns_;
     std::vector<double> mass_values_;
 
     std::vector<int> column_starts_, rows_;
-    Lists stiffness_entries_;          // of a nonzero: where its parts lie in element_matrices_
-    std::vector<double> system_mass_;  // M in the pattern
+    Lists stiffness_entries_;                     // of a nonzero: where its parts lie in element_matrices_
+    std::vector<std::uint32_t> mass_of_nonzero_;  // in mass_values_; no_mass where the directions differ
     std::vector<double> element_matrices_;
     std::vector<double> stiffness_diagonal_;
 };

@@ -70,7 +70,7 @@ struct Contents {
     std::vector<std::array<double, 2>> nodes;
     std::vector<Line> lines;
     std::vector<std::pair<int, NodeIndex>> points;  // entity, node
-    std::vector<Quad8Nodes> quadrilaterals;         // mid-side nodes -1 where they are still to be made
+    std::vector<Element> quadrilaterals;            // without mid-side nodes where they are still to be made
     std::vector<int> tags, entities;                // of quadrilaterals
     bool has_linear = false, has_quadratic = false;
 };
@@ -192,7 +192,7 @@ void read_elements(Lines& lines, Contents& contents) {
             int tag = 0;
             std::istringstream line = lines.read("an element", tag);
             const int nodes = node_count(type, tag, lines);
-            std::array<NodeIndex, 8> node{};
+            Element node;
             for (int a = 0; a < nodes; ++a) {
                 int node_tag = 0;
                 if (!(line >> node_tag)) lines.fail("element " + std::to_string(tag) + " lacks nodes");
@@ -200,11 +200,10 @@ void read_elements(Lines& lines, Contents& contents) {
                 if (found == contents.index.end())
                     lines.fail("element " + std::to_string(tag) + " has node " + std::to_string(node_tag) +
                                ", which the file does not define");
-                node[static_cast<std::size_t>(a)] = found->second;
+                node.push_back(found->second);
             }
             if (type == 15) contents.points.emplace_back(entity, node[0]);
             if (type == 1 || type == 8) contents.lines.push_back({tag, entity, node[0], node[1]});
-            if (type == 3) std::fill(node.begin() + 4, node.end(), -1);
             if (type == 3 || type == 16) {
                 contents.quadrilaterals.push_back(node);
                 contents.tags.push_back(tag);
@@ -227,7 +226,7 @@ void read_elements(Lines& lines, Contents& contents) {
 // Straight mid-side nodes for 4-node quadrilaterals, one for each edge.
 void add_mid_side_nodes(Contents& contents) {
     std::map<std::pair<NodeIndex, NodeIndex>, NodeIndex> middle;
-    for (Quad8Nodes& element : contents.quadrilaterals)
+    for (Element& element : contents.quadrilaterals)
         for (std::size_t s = 0; s < 4; ++s) {
             const NodeIndex a = element[s], b = element[(s + 1) % 4];
             const auto [found, made] = middle.emplace(std::minmax(a, b), static_cast<NodeIndex>(contents.nodes.size()));
@@ -238,14 +237,14 @@ void add_mid_side_nodes(Contents& contents) {
                 contents.node_tags.push_back(0);
                 contents.on_unnamed_point.push_back(false);
             }
-            element[4 + s] = found->second;
+            element.push_back(found->second);
         }
 }
 
 // Numbers only the nodes that quadrilaterals use; drops geometry points, refuses other nodes that nothing uses.
 void drop_unused_nodes(Contents& contents, const std::string& source) {
     std::vector<bool> used(contents.nodes.size(), false);
-    for (const Quad8Nodes& element : contents.quadrilaterals)
+    for (const Element& element : contents.quadrilaterals)
         for (const NodeIndex a : element) used[static_cast<std::size_t>(a)] = true;
     std::vector<NodeIndex> renumbered(contents.nodes.size(), -1);
     NodeIndex next = 0;
@@ -259,15 +258,15 @@ void drop_unused_nodes(Contents& contents, const std::string& source) {
     }
     contents.nodes.resize(static_cast<std::size_t>(next));
     const auto renumber = [&](NodeIndex& a) { a = renumbered[static_cast<std::size_t>(a)]; };
-    for (Quad8Nodes& element : contents.quadrilaterals) std::for_each(element.begin(), element.end(), renumber);
+    for (Element& element : contents.quadrilaterals) std::for_each(element.begin(), element.end(), renumber);
     for (Line& line : contents.lines) renumber(line.first), renumber(line.second);
     for (auto& [entity, node] : contents.points) renumber(node);
 }
 
-Mesh build(Contents& contents, const std::string& source) {
+Mesh<2> build(Contents& contents, const std::string& source) {
     if (contents.has_linear) add_mid_side_nodes(contents);
     drop_unused_nodes(contents, source);
-    Mesh mesh{contents.nodes, contents.quadrilaterals, {}, {}};
+    Mesh<2> mesh{contents.nodes, contents.quadrilaterals, {}, {}, {}};
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
         if (const std::string fault = element_fault(mesh, e); !fault.empty())
             fail(source, "element " + std::to_string(contents.tags[e]) + " " + fault);
@@ -284,13 +283,13 @@ Mesh build(Contents& contents, const std::string& source) {
         for (const std::string& name : groups(2, contents.entities[e]))
             sets[name].insert(mesh.elements[e].begin(), mesh.elements[e].end());
 
-    std::map<std::pair<NodeIndex, NodeIndex>, std::pair<SurfaceEdge, int>> edges;  // with the number of its elements
-    for (const Quad8Nodes& element : mesh.elements)
+    std::map<std::pair<NodeIndex, NodeIndex>, std::pair<Facet, int>> edges;  // with the number of its elements
+    for (const Element& element : mesh.elements)
         for (std::size_t s = 0; s < 4; ++s) {
-            const SurfaceEdge edge{element[s], element[(s + 1) % 4], element[4 + s]};
+            const Facet edge{element[s], element[(s + 1) % 4], element[4 + s]};
             ++edges.emplace(std::minmax(edge[0], edge[1]), std::pair{edge, 0}).first->second.second;
         }
-    std::map<std::string, std::vector<SurfaceEdge>> surfaces;
+    std::map<std::string, std::vector<Facet>> surfaces;
     for (const Line& line : contents.lines)
         for (const std::string& name : groups(1, line.entity)) {
             const auto found = edges.find(std::minmax(line.first, line.second));
@@ -309,7 +308,7 @@ Mesh build(Contents& contents, const std::string& source) {
 
 }  // namespace
 
-Mesh read_gmsh(std::istream& input, const std::string& source) {
+Mesh<2> read_gmsh(std::istream& input, const std::string& source) {
     Lines lines(input, source);
     Contents contents;
     std::set<std::string> seen;

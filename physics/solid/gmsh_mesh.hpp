@@ -15,6 +15,6 @@ namespace aquagraph::solid {
 // source: what messages call the file. Throws MeshError with the line, or the element's tag: wrong version or binary,
 // truncated file, unknown element type (9-node quadrilaterals with the remedy), quadrilaterals or physical entities
 // without a name, clockwise or inverted elements, dangling nodes.
-Mesh read_gmsh(std::istream& input, const std::string& source);
+Mesh<2> read_gmsh(std::istream& input, const std::string& source);
 
 }  // namespace aquagraph::solid

@@ -54,7 +54,8 @@ std::string NewtonResult::description() const {
     return text.str();
 }
 
-bool Solver::Implementation::factorise_dynamic(const std::vector<double>& at, double dt, BlockLoop loop) {
+template <int D>
+bool Solver<D>::Implementation::factorise_dynamic(const std::vector<double>& at, double dt, BlockLoop loop) {
     assembly.system_matrix(at, newmark.weight_new * newmark.beta * dt * dt, 1, cholesky.values(), loop);
     ++statistics.factorisations;
     factor = {cholesky.factorise(), dt, 0, 0, 0};
@@ -62,7 +63,8 @@ bool Solver::Implementation::factorise_dynamic(const std::vector<double>& at, do
 }
 
 // M a_n = F_ext - F_int
-void Solver::Implementation::find_initial_accelerations(BlockLoop loop) {
+template <int D>
+void Solver<D>::Implementation::find_initial_accelerations(BlockLoop loop) {
     assembly.internal_forces(u, internal, loop);
     assembly.system_matrix(u, 0, 1, cholesky.values(), loop);
     ++statistics.factorisations;
@@ -77,7 +79,8 @@ void Solver::Implementation::find_initial_accelerations(BlockLoop loop) {
     for (std::size_t e = 0; e < correction.size(); ++e) old_a[assembly.freedoms()[e]] = correction[e];
 }
 
-NewtonResult Solver::Implementation::solve_step(double dt, Attempt attempt, BlockLoop loop) {
+template <int D>
+NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, BlockLoop loop) {
     const double to_displacement = newmark.beta * dt * dt;
     for (const std::size_t f : assembly.freedoms()) {
         a[f] = attempt == Attempt::from_rest ? (old_u[f] - predicted_u[f]) / to_displacement : old_a[f];
@@ -141,12 +144,13 @@ NewtonResult Solver::Implementation::solve_step(double dt, Attempt attempt, Bloc
     }
 }
 
-void Solver::Implementation::advance(double dt, std::span<const double> loads, BlockLoop loop) {
+template <int D>
+void Solver<D>::Implementation::advance(double dt, std::span<const double> loads, BlockLoop loop) {
     if (!(dt > 0) || !std::isfinite(dt))
         throw std::invalid_argument("solid: the time step must be positive, it is " + std::to_string(dt));
     if (loads.size() != u.size())
         throw std::invalid_argument("solid: " + std::to_string(loads.size()) + " load components were given, " +
-                                    std::to_string(u.size()) + " are needed (2 per node)");
+                                    std::to_string(u.size()) + " are needed (" + std::to_string(D) + " per node)");
     old_u = u;
     old_v = v;
     old_a = a;
@@ -211,5 +215,8 @@ void Solver::Implementation::advance(double dt, std::span<const double> loads, B
     statistics.last_iterations = result.iterations;
     statistics.last_residual = result.reference > 0 ? result.last_residual / result.reference : 0;
 }
+
+template struct Solver<2>::Implementation;
+template struct Solver<3>::Implementation;
 
 }  // namespace aquagraph::solid

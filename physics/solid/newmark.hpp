@@ -5,7 +5,7 @@
 // (its damping ratio is -α ω Δt/2 at low frequency, HHT's is of third order in ω Δt). With α = 0 they are the same, and
 // keep the energy of a linear body. The highest frequencies, ω Δt → ∞, shrink by (1 + α)/(1 - α) a step in both.
 #pragma once
-#include "physics/solid/solver.hpp"
+#include "physics/solid/options.hpp"
 
 namespace aquagraph::solid {
 

@@ -16,29 +16,45 @@ void require(bool holds, const std::string& message) {
     if (!holds) throw std::invalid_argument("solid: " + message);
 }
 
-const Options& checked(const Options& options) {
-    const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-    require(positive(options.youngs_modulus), "Young's modulus must be positive");
-    require(options.poissons_ratio > -1 && options.poissons_ratio < 0.5, "Poisson's ratio must lie in ]-1, 1/2[");
-    require(positive(options.density), "the density must be positive");
+bool positive(double x) {
+    return x > 0 && std::isfinite(x);
+}
+
+void check(const Material& material) {
+    require(positive(material.density), "the density must be positive");
+    if (material.law == MaterialLaw::mooney_rivlin) {
+        require(positive(material.c10 + material.c01), "C10 + C01 must be positive");
+        require(positive(material.bulk_modulus), "the bulk modulus must be positive");
+        return;
+    }
+    require(positive(material.youngs_modulus), "Young's modulus must be positive");
+    require(material.poissons_ratio > -1 && material.poissons_ratio < 0.5, "Poisson's ratio must lie in ]-1, 1/2[");
+}
+
+template <int D>
+const Options<D>& checked(const Options<D>& options) {
+    check(options.material);
+    for (const Part& part : options.parts) check(part.material);
     require(positive(options.thickness), "the thickness must be positive");
     require(options.alpha > -1.0 / 3 && options.alpha <= 0,
             "alpha must lie in ]-1/3, 0], it is " + std::to_string(options.alpha));
-    require(std::isfinite(options.gravity[0]) && std::isfinite(options.gravity[1]), "gravity must be finite");
+    for (const double g : options.gravity) require(std::isfinite(g), "gravity must be finite");
     require(positive(options.residual_tolerance) && positive(options.increment_tolerance),
             "the tolerances must be positive");
     require(options.max_iterations > 0, "max_iterations must be positive");
     return options;
 }
 
-Mesh checked(Mesh mesh) {
+template <int D>
+Mesh<D> checked(Mesh<D> mesh) {
     check(mesh);
     return mesh;
 }
 
 }  // namespace
 
-Solver::Implementation::Implementation(Mesh given_mesh, const Options& given_options)
+template <int D>
+Solver<D>::Implementation::Implementation(Mesh<D> given_mesh, const Options<D>& given_options)
     : mesh(checked(std::move(given_mesh))),
       options(checked(given_options)),
       newmark(newmark_coefficients(options.scheme, options.alpha)),
@@ -47,26 +63,29 @@ Solver::Implementation::Implementation(Mesh given_mesh, const Options& given_opt
     require(assembly.equations() > 0, "the clamps leave nothing free");
     for (auto* field : {&u, &v, &a, &positions, &internal, &inertia, &external, &previous_external, &previous_internal,
                         &old_u, &old_v, &old_a, &predicted_u, &static_start, &static_target})
-        field->assign(2 * mesh.nodes.size(), 0.0);
+        field->assign(D * mesh.nodes.size(), 0.0);
     residual.assign(assembly.equations(), 0.0);
     correction.assign(assembly.equations(), 0.0);
     update_positions();
 }
 
-double Solver::Implementation::norm(std::span<const double> equations) const {
+template <int D>
+double Solver<D>::Implementation::norm(std::span<const double> equations) const {
     double sum = 0;
     for (const double x : equations) sum += x * x;
     return std::sqrt(sum);
 }
 
-double Solver::Implementation::norm_of_free(std::span<const double> full) const {
+template <int D>
+double Solver<D>::Implementation::norm_of_free(std::span<const double> full) const {
     double sum = 0;
     for (const std::size_t f : assembly.freedoms()) sum += full[f] * full[f];
     return std::sqrt(sum);
 }
 
 // Displacements are stored to rounding, so forces cannot be better than rounding × K_ii |u_i|, some terms together.
-double Solver::Implementation::rounding_floor() const {
+template <int D>
+double Solver<D>::Implementation::rounding_floor() const {
     constexpr double terms = 4;
     double sum = 0;
     for (std::size_t e = 0; e < residual.size(); ++e) {
@@ -76,53 +95,70 @@ double Solver::Implementation::rounding_floor() const {
     return terms * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
-void Solver::Implementation::update_positions() {
+template <int D>
+void Solver<D>::Implementation::update_positions() {
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-        for (std::size_t i = 0; i < 2; ++i) positions[2 * n + i] = mesh.nodes[n][i] + u[2 * n + i];
+        for (std::size_t i = 0; i < D; ++i) positions[D * n + i] = mesh.nodes[n][i] + u[D * n + i];
 }
 
-Solver::Solver(Mesh mesh, const Options& options)
+template <int D>
+Solver<D>::Solver(Mesh<D> mesh, const Options<D>& options)
     : implementation_(std::make_unique<Implementation>(std::move(mesh), options)) {}
-Solver::~Solver() = default;
-Solver::Solver(Solver&&) noexcept = default;
-Solver& Solver::operator=(Solver&&) noexcept = default;
+template <int D>
+Solver<D>::~Solver() = default;
+template <int D>
+Solver<D>::Solver(Solver&&) noexcept = default;
+template <int D>
+Solver<D>& Solver<D>::operator=(Solver&&) noexcept = default;
 
-void Solver::solve_static(std::span<const double> external_forces, BlockLoop loop) {
+template <int D>
+void Solver<D>::solve_static(std::span<const double> external_forces, BlockLoop loop) {
     implementation_->solve_static(external_forces, loop);
 }
-void Solver::advance(double dt, std::span<const double> external_forces, BlockLoop loop) {
+template <int D>
+void Solver<D>::advance(double dt, std::span<const double> external_forces, BlockLoop loop) {
     implementation_->advance(dt, external_forces, loop);
 }
 
-const Mesh& Solver::mesh() const {
+template <int D>
+const Mesh<D>& Solver<D>::mesh() const {
     return implementation_->mesh;
 }
-const Options& Solver::options() const {
+template <int D>
+const Options<D>& Solver<D>::options() const {
     return implementation_->options;
 }
-std::span<const double> Solver::positions() const {
+template <int D>
+std::span<const double> Solver<D>::positions() const {
     return implementation_->positions;
 }
-std::span<const double> Solver::displacements() const {
+template <int D>
+std::span<const double> Solver<D>::displacements() const {
     return implementation_->u;
 }
-std::span<const double> Solver::velocities() const {
+template <int D>
+std::span<const double> Solver<D>::velocities() const {
     return implementation_->v;
 }
-std::span<const double> Solver::accelerations() const {
+template <int D>
+std::span<const double> Solver<D>::accelerations() const {
     return implementation_->a;
 }
-Statistics Solver::statistics() const {
+template <int D>
+Statistics Solver<D>::statistics() const {
     return implementation_->statistics;
 }
-double Solver::mass() const {
+template <int D>
+double Solver<D>::mass() const {
     return implementation_->assembly.mass();
 }
-double Solver::largest_stable_step() const {
+template <int D>
+double Solver<D>::largest_stable_step() const {
     return std::numeric_limits<double>::infinity();
 }
 
-Energies Solver::energies() const {
+template <int D>
+Energies Solver<D>::energies() const {
     const Implementation& self = *implementation_;
     std::vector<double> momentum(self.u.size());
     self.assembly.multiply_mass(self.v, momentum, serial_loop);
@@ -131,17 +167,19 @@ Energies Solver::energies() const {
         energies.kinetic += 0.5 * self.v[f] * momentum[f];
         energies.gravity_potential -= self.assembly.gravity_forces()[f] * self.u[f];
     }
-    energies.strain = self.assembly.elements().energy(self.u);
+    energies.strain = self.assembly.energy(self.u);
     energies.external_work = self.external_work;
     return energies;
 }
 
-void Solver::element_stress(std::span<double> von_mises) const {
+template <int D>
+void Solver<D>::element_stress(std::span<double> von_mises) const {
     require(von_mises.size() == implementation_->mesh.elements.size(), "one stress per element is written");
-    implementation_->assembly.elements().von_mises(implementation_->u, von_mises);
+    implementation_->assembly.von_mises(implementation_->u, von_mises);
 }
 
-void Solver::save(State& state) {
+template <int D>
+void Solver<D>::save(State& state) {
     Implementation& self = *implementation_;
     self.factor = {};
     state.displacements = self.u;
@@ -153,7 +191,8 @@ void Solver::save(State& state) {
     state.statistics = self.statistics;
 }
 
-void Solver::restore(const State& state) {
+template <int D>
+void Solver<D>::restore(const State& state) {
     Implementation& self = *implementation_;
     for (const auto* field : {&state.displacements, &state.velocities, &state.accelerations, &state.external_forces})
         require(field->size() == self.u.size(), "the saved state has " + std::to_string(field->size()) +
@@ -169,5 +208,10 @@ void Solver::restore(const State& state) {
     self.factor = {};
     self.update_positions();
 }
+
+template struct Solver<2>::Implementation;
+template struct Solver<3>::Implementation;
+template class Solver<2>;
+template class Solver<3>;
 
 }  // namespace aquagraph::solid

@@ -7,10 +7,9 @@
 // with Newmark's update (3.38)-(3.39), γ = 1/2 - α and β = (1 - α)²/4 (3.45)-(3.46). "Newmark" has the same γ and β
 // and no weighting of forces: M a_n+1 + F_int(u_n+1) = F_ext_n+1.
 //
-// Arrays over nodes are interleaved: x and y of node 0, x and y of node 1, …: 2 × nodes numbers. SI units; loads are
-// those on the whole thickness [N].
+// Arrays over nodes are interleaved: x and y (and z) of node 0, those of node 1, …: D × nodes numbers. SI units;
+// loads are those on the whole thickness [N].
 #pragma once
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -20,34 +19,9 @@
 
 #include "physics/block_loop.hpp"
 #include "physics/solid/mesh.hpp"
+#include "physics/solid/options.hpp"
 
 namespace aquagraph::solid {
-
-enum class MaterialLaw { saint_venant_kirchhoff, neo_hookean };
-enum class PlaneCondition { strain, stress };
-enum class Scheme { hht, newmark };
-
-// Every node of a set keeps its reference position in the directions marked (x, y).
-struct Clamp {
-    std::string set;
-    std::array<bool, 2> fixed{};
-};
-
-struct Options {
-    MaterialLaw law = MaterialLaw::saint_venant_kirchhoff;
-    PlaneCondition plane = PlaneCondition::strain;
-    double youngs_modulus = 0;        // E > 0 [Pa]
-    double poissons_ratio = 0;        // ν in ]-1, 1/2[
-    double density = 0;               // ρ_S > 0 [kg/m³], in the reference configuration
-    double thickness = 1;             // > 0 [m], in the reference configuration
-    std::array<double, 2> gravity{};  // [m/s²]
-    Scheme scheme = Scheme::hht;
-    double alpha = -0.3;  // αs in ]-1/3, 0]
-    std::vector<Clamp> clamps;
-    double residual_tolerance = 1e-8;   // of the largest of |F_ext|, |F_int|, |M a| (Euclidean norms over free nodes)
-    double increment_tolerance = 1e-6;  // of |u_n+1 - u_n|: bounds the displacement error that Newton leaves
-    int max_iterations = 30;            // of one Newton solve
-};
 
 // Newton did not converge, or the stiffness is not positive definite. The solver has gone back to the last accepted
 // state.
@@ -74,35 +48,36 @@ struct Statistics {
 
 // Everything that the next step depends on, to write to a checkpoint.
 struct State {
-    std::vector<double> displacements, velocities, accelerations;  // 2 × nodes
+    std::vector<double> displacements, velocities, accelerations;  // D × nodes
     std::vector<double> external_forces;                           // loads of the last step and gravity
     bool accelerations_known = false;
     double external_work = 0;
     Statistics statistics;
 };
 
+template <int D>
 class Solver {
   public:
     // Throws std::invalid_argument for an option out of range, a clamp of an unknown set (naming those that exist), a
     // neo-Hookean law in plane stress, and MeshError for a mesh that check() refuses.
-    Solver(Mesh mesh, const Options& options);
+    Solver(Mesh<D> mesh, const Options<D>& options);
     ~Solver();
     Solver(Solver&&) noexcept;
     Solver& operator=(Solver&&) noexcept;
 
-    // Static equilibrium under gravity and these loads (2 × nodes), reached from the present displacements by load
+    // Static equilibrium under gravity and these loads (D × nodes), reached from the present displacements by load
     // increments that are halved where Newton fails. Velocities and accelerations become zero, external_work restarts
     // at zero. Throws ConvergenceError, leaving the solver as it was.
     void solve_static(std::span<const double> external_forces, BlockLoop loop);
 
-    // One step of size dt > 0 [s]; external_forces (2 × nodes) act at its end. Those at its start are the ones of the
+    // One step of size dt > 0 [s]; external_forces (D × nodes) act at its end. Those at its start are the ones of the
     // step before; the first step takes its loads as constant, and its initial acceleration from M a = F_ext - F_int.
     // Throws ConvergenceError, leaving the solver as it was, and std::invalid_argument for sizes or dt out of range.
     // Bitwise the same for any loop. Allocates nothing, unless it factorises.
     void advance(double dt, std::span<const double> external_forces, BlockLoop loop);
 
-    const Mesh& mesh() const;
-    const Options& options() const;
+    const Mesh<D>& mesh() const;
+    const Options<D>& options() const;
     std::span<const double> positions() const;      // X + u [m]
     std::span<const double> displacements() const;  // u [m]
     std::span<const double> velocities() const;     // [m/s]

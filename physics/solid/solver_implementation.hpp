@@ -37,8 +37,9 @@ struct FactorPolicy {
 // A step is tried with the factorisation there is, then with a new one, then also from unchanged displacements.
 enum class Attempt { reusing, factorising, from_rest };
 
-struct Solver::Implementation {
-    Implementation(Mesh mesh, const Options& options);
+template <int D>
+struct Solver<D>::Implementation {
+    Implementation(Mesh<D> mesh, const Options<D>& options);
 
     // implicit_step.cpp
     void advance(double dt, std::span<const double> loads, BlockLoop loop);
@@ -56,13 +57,13 @@ struct Solver::Implementation {
     double rounding_floor() const;  // what rounding alone leaves of the residual [N]
     void update_positions();
 
-    const Mesh mesh;
-    const Options options;
+    const Mesh<D> mesh;
+    const Options<D> options;
     const NewmarkCoefficients newmark;
-    Assembly assembly;
+    Assembly<D> assembly;
     Cholesky cholesky;
 
-    // 2 × nodes
+    // D × nodes
     std::vector<double> u, v, a, positions;
     std::vector<double> internal, inertia;            // F_int(u), M a
     std::vector<double> external, previous_external;  // loads and gravity, at the end and at the start of a step

@@ -16,7 +16,8 @@ constexpr int easy_iterations = 6;
 
 // Newton at start + load_factor (target - start). Converged: |r| <= residual_tolerance × max(|F_ext|, |F_int|) and the
 // last correction, squared by Newton's convergence, is below increment_tolerance × |u|; or rounding is reached.
-NewtonResult Solver::Implementation::solve_increment(double load_factor, BlockLoop loop) {
+template <int D>
+NewtonResult Solver<D>::Implementation::solve_increment(double load_factor, BlockLoop loop) {
     NewtonResult result;
     using Outcome = NewtonResult::Outcome;
     double relative_correction = 1;
@@ -48,10 +49,11 @@ NewtonResult Solver::Implementation::solve_increment(double load_factor, BlockLo
     }
 }
 
-void Solver::Implementation::solve_static(std::span<const double> loads, BlockLoop loop) {
+template <int D>
+void Solver<D>::Implementation::solve_static(std::span<const double> loads, BlockLoop loop) {
     if (loads.size() != u.size())
         throw std::invalid_argument("solid: " + std::to_string(loads.size()) + " load components were given, " +
-                                    std::to_string(u.size()) + " are needed (2 per node)");
+                                    std::to_string(u.size()) + " are needed (" + std::to_string(D) + " per node)");
     const std::vector<double> start_u = u, start_external = external, start_internal = internal;
     factor = {};
     assembly.internal_forces(u, static_start, loop);
@@ -97,5 +99,8 @@ void Solver::Implementation::solve_static(std::span<const double> loads, BlockLo
     external_work = 0;
     update_positions();
 }
+
+template struct Solver<2>::Implementation;
+template struct Solver<3>::Implementation;
 
 }  // namespace aquagraph::solid

@@ -13,7 +13,7 @@ namespace {
 
 // A body beside a rigid wall whose vertices come first: nothing of the wall may move or be loaded.
 struct BesideWall {
-    solid::Mesh mesh = solid::box_mesh({1.0, 0.0}, {1.2, 0.9}, 2, 3);
+    solid::Mesh<2> mesh = solid::box_mesh({1.0, 0.0}, {1.2, 0.9}, 2, 3);
     fluid::Panels<2> panels;
     WetSurface surface;
 
@@ -70,7 +70,7 @@ TEST_CASE("neighbouring panels of one surface share their vertex") {
 
 TEST_CASE("an unknown surface is refused with the names that exist") {
     fluid::Panels<2> panels;
-    const solid::Mesh mesh = solid::box_mesh({0, 0}, {1, 1}, 1, 1);
+    const solid::Mesh<2> mesh = solid::box_mesh({0, 0}, {1, 1}, 1, 1);
     CHECK_THROWS_WITH_AS(WetSurface(mesh, {"front"}, "body", panels), doctest::Contains("left"), std::invalid_argument);
 }
 

@@ -13,21 +13,21 @@ using namespace aquagraph::solid::test;
 
 namespace {
 
-Options rubber() {
-    Options options;
-    options.youngs_modulus = 1e6;
-    options.poissons_ratio = 0.3;
-    options.density = 1000;
+Options<2> rubber() {
+    Options<2> options;
+    options.material.youngs_modulus = 1e6;
+    options.material.poissons_ratio = 0.3;
+    options.material.density = 1000;
     options.clamps = {{"left", {true, true}}};
     return options;
 }
 
-const Mesh& beam() {
-    static const Mesh mesh = box_mesh({0, 0}, {0.1, 0.01}, 10, 1);
+const Mesh<2>& beam() {
+    static const Mesh<2> mesh = box_mesh({0, 0}, {0.1, 0.01}, 10, 1);
     return mesh;
 }
 
-void start_with(Solver& solver, const std::vector<double>& u, const std::vector<double>& v) {
+void start_with(Solver<2>& solver, const std::vector<double>& u, const std::vector<double>& v) {
     State state;
     solver.save(state);
     state.displacements = u;
@@ -36,10 +36,10 @@ void start_with(Solver& solver, const std::vector<double>& u, const std::vector<
 }
 
 // Bends far (a fifth of its length) under a load that comes and goes smoothly; positions at time 0.2 s.
-std::vector<double> large_swing(Options options, int steps) {
+std::vector<double> large_swing(Options<2> options, int steps) {
     constexpr double end = 0.2;
     options.residual_tolerance = 1e-11;
-    Solver solver(beam(), options);
+    Solver<2> solver(beam(), options);
     std::vector<double> full = traction(beam(), "top", {0, -120}), load(full.size());
     for (int k = 1; k <= steps; ++k) {
         const double t = end * k / steps, part = std::pow(std::sin(M_PI * t / end), 2);
@@ -55,8 +55,8 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
     return std::sqrt(sum);
 }
 
-double observed_order(const Options& options) {
-    Options exact = options;
+double observed_order(const Options<2>& options) {
+    Options<2> exact = options;
     exact.alpha = 0;
     const std::vector<double> reference = large_swing(exact, 6400);
     return std::log2(distance(large_swing(options, 400), reference) / distance(large_swing(options, 800), reference));
@@ -64,11 +64,11 @@ double observed_order(const Options& options) {
 
 // |λ| of one step on the lowest mode, measured: once the third, spurious root has died out the amplitude q obeys
 // q_n+1 = 2 Re λ q_n - |λ|² q_n-1.
-double measured_radius(const Options& options, double omega_dt) {
+double measured_radius(const Options<2>& options, double omega_dt) {
     const Mode mode = lowest_mode(beam(), options);
     std::vector<double> u = mode.shape;
     for (double& x : u) x *= 1e-9;
-    Solver solver(beam(), options);
+    Solver<2> solver(beam(), options);
     start_with(solver, u, no_load(beam()));
     const std::size_t tip = 2 * nearest_node(beam(), 0.1, 0) + 1;
     std::vector<double> q;
@@ -106,7 +106,7 @@ double theoretical_radius(Scheme scheme, double alpha, double Omega) {
 }  // namespace
 
 TEST_CASE("HHT is second order and so is Newmark without damping; Newmark with α < 0 is first order") {
-    Options options = rubber();
+    Options<2> options = rubber();
     options.alpha = 0;
     CHECK(observed_order(options) == doctest::Approx(2).epsilon(0.05));
     options.alpha = -0.3;
@@ -119,7 +119,7 @@ TEST_CASE("the damping of the schemes is that of their spectral radius") {
     for (const Scheme scheme : {Scheme::hht, Scheme::newmark})
         for (const double alpha : {-0.05, -0.3})
             for (const double omega_dt : {0.3, 1.0, 3.0}) {
-                Options options = rubber();
+                Options<2> options = rubber();
                 options.scheme = scheme;
                 options.alpha = alpha;
                 options.residual_tolerance = 1e-12;
@@ -134,14 +134,14 @@ TEST_CASE("the damping of the schemes is that of their spectral radius") {
 }
 
 TEST_CASE("without damping a linear body keeps its energy, with damping it only loses") {
-    Options options = rubber();
+    Options<2> options = rubber();
     options.residual_tolerance = 1e-12;
     const Mode mode = lowest_mode(beam(), options);
     std::vector<double> u = mode.shape;
     for (std::size_t k = 0; k < u.size(); ++k) u[k] *= 1e-8 * (k % 3 == 0 ? 1.2 : 1);  // high modes as well
     for (const double alpha : {0.0, -0.3}) {
         options.alpha = alpha;
-        Solver solver(beam(), options);
+        Solver<2> solver(beam(), options);
         start_with(solver, u, no_load(beam()));
         const double initial = solver.energies().strain;
         double before = initial;
@@ -157,10 +157,10 @@ TEST_CASE("without damping a linear body keeps its energy, with damping it only 
 }
 
 TEST_CASE("the work of the loads becomes energy") {
-    Options options = rubber();
+    Options<2> options = rubber();
     options.alpha = 0;
     options.gravity = {0, -9.81};
-    Solver solver(beam(), options);
+    Solver<2> solver(beam(), options);
     const auto load = traction(beam(), "top", {3, -5});
     double largest = 0;
     for (int k = 0; k < 400; ++k) {
@@ -173,17 +173,17 @@ TEST_CASE("the work of the loads becomes energy") {
 }
 
 TEST_CASE("a free body keeps its momentum, falls as a stone, and its far travel does not spoil convergence") {
-    Options options = rubber();
+    Options<2> options = rubber();
     options.clamps.clear();
     options.gravity = {0, -10};
-    Solver solver(beam(), options);
+    Solver<2> solver(beam(), options);
     std::vector<double> v = no_load(beam());
     for (std::size_t n = 0; n < beam().nodes.size(); ++n) {
         v[2 * n] = 50 + 2 * beam().nodes[n][1];
         v[2 * n + 1] = 30 * (beam().nodes[n][0] - 0.05);  // turns
     }
     start_with(solver, no_load(beam()), v);
-    Assembly assembly(beam(), options);
+    Assembly<2> assembly(beam(), options);
     std::vector<double> momentum(v.size());
     const auto total = [&](std::size_t i) {
         assembly.multiply_mass(solver.velocities(), momentum, serial_loop);
@@ -200,37 +200,38 @@ TEST_CASE("a free body keeps its momentum, falls as a stone, and its far travel 
 }
 
 TEST_CASE("first frequency of a slender cantilever, against Euler–Bernoulli; of the gate and the plate") {
-    Options options = rubber();
-    options.poissons_ratio = 0;  // no clamping across: the beam theory is then exact but for shear and rotation
+    Options<2> options = rubber();
+    options.material.poissons_ratio =
+        0;  // no clamping across: the beam theory is then exact but for shear and rotation
     const double h = 0.001, L = 0.1;
     const double theory = 1.8751040687 * 1.8751040687 / (2 * M_PI * L * L) * std::sqrt(1e6 * h * h / 12 / 1000);
     CHECK(lowest_mode(box_mesh({0, 0}, {L, h}, 40, 1), options).frequency == doctest::Approx(theory).epsilon(0.0005));
-    options.poissons_ratio = 0.3;
+    options.material.poissons_ratio = 0.3;
     CHECK(lowest_mode(box_mesh({0, 0}, {L, h}, 40, 1), options).frequency ==
           doctest::Approx(theory / std::sqrt(1 - 0.09)).epsilon(0.005));
 
-    Options gate;
-    gate.youngs_modulus = 11.96e6;
-    gate.poissons_ratio = 0.4;
-    gate.density = 1100;
+    Options<2> gate;
+    gate.material.youngs_modulus = 11.96e6;
+    gate.material.poissons_ratio = 0.4;
+    gate.material.density = 1100;
     gate.clamps = {{"top", {true, true}}};
     CHECK(lowest_mode(box_mesh({0, 0}, {0.005, 0.079}, 4, 40), gate).frequency == doctest::Approx(14.7).epsilon(0.004));
 
-    Options plate;
-    plate.youngs_modulus = 67.5e9;
-    plate.poissons_ratio = 0.34;
-    plate.density = 2700;
+    Options<2> plate;
+    plate.material.youngs_modulus = 67.5e9;
+    plate.material.poissons_ratio = 0.34;
+    plate.material.density = 2700;
     plate.clamps = {{"left", {true, true}}, {"right", {true, true}}};
     CHECK(lowest_mode(box_mesh({0, 0}, {1, 0.05}, 40, 4), plate).frequency == doctest::Approx(269).epsilon(0.004));
 }
 
 TEST_CASE("a cantilever let go swings at its frequency") {
-    Options options = rubber();
+    Options<2> options = rubber();
     options.alpha = 0;
     const Mode mode = lowest_mode(beam(), options);
     std::vector<double> u = mode.shape;
     for (double& x : u) x *= 1e-7;
-    Solver solver(beam(), options);
+    Solver<2> solver(beam(), options);
     start_with(solver, u, no_load(beam()));
     const std::size_t tip = 2 * nearest_node(beam(), 0.1, 0.005) + 1;
     const double dt = 0.005 / mode.frequency;

@@ -19,10 +19,10 @@
 namespace aquagraph::solid::test {
 
 // Consistent nodal forces of a constant traction [N/m²] on a straight-sided surface: 1/6, 1/6, 4/6 of each edge.
-inline std::vector<double> traction(const Mesh& mesh, const std::string& surface, std::array<double, 2> t) {
+inline std::vector<double> traction(const Mesh<2>& mesh, const std::string& surface, std::array<double, 2> t) {
     std::vector<double> forces(2 * mesh.nodes.size(), 0.0);
     constexpr std::array<double, 3> share{1.0 / 6, 1.0 / 6, 4.0 / 6};
-    for (const SurfaceEdge& edge : mesh.surface(surface)) {
+    for (const Facet& edge : mesh.surface(surface)) {
         const auto &A = mesh.nodes[static_cast<std::size_t>(edge[0])],
                    &B = mesh.nodes[static_cast<std::size_t>(edge[1])];
         const double length = std::hypot(B[0] - A[0], B[1] - A[1]);
@@ -33,7 +33,7 @@ inline std::vector<double> traction(const Mesh& mesh, const std::string& surface
     return forces;
 }
 
-inline std::size_t nearest_node(const Mesh& mesh, double x, double y) {
+inline std::size_t nearest_node(const Mesh<2>& mesh, double x, double y) {
     std::size_t best = 0;
     const auto distance = [&](std::size_t n) { return std::hypot(mesh.nodes[n][0] - x, mesh.nodes[n][1] - y); };
     for (std::size_t n = 1; n < mesh.nodes.size(); ++n)
@@ -41,7 +41,7 @@ inline std::size_t nearest_node(const Mesh& mesh, double x, double y) {
     return best;
 }
 
-inline std::vector<double> no_load(const Mesh& mesh) {
+inline std::vector<double> no_load(const Mesh<2>& mesh) {
     return std::vector<double>(2 * mesh.nodes.size(), 0.0);
 }
 
@@ -51,7 +51,7 @@ inline std::vector<double> copy(std::span<const double> values) {
 
 // A box mesh with every node moved.
 template <class Map>
-Mesh mapped(Mesh mesh, const Map& map) {
+Mesh<2> mapped(Mesh<2> mesh, const Map& map) {
     for (auto& X : mesh.nodes) X = map(X);
     return mesh;
 }
@@ -76,8 +76,8 @@ struct Mode {
 };
 
 // Lowest eigenpair K φ = ω² M φ of the undeformed body by inverse iteration.
-inline Mode lowest_mode(const Mesh& mesh, const Options& options) {
-    Assembly assembly(mesh, options);
+inline Mode lowest_mode(const Mesh<2>& mesh, const Options<2>& options) {
+    Assembly<2> assembly(mesh, options);
     Cholesky cholesky(assembly.column_starts(), assembly.rows());
     const std::size_t size = 2 * mesh.nodes.size();
     std::vector<double> x(size, 0.0), Mx(size), b(assembly.equations()), y(assembly.equations());

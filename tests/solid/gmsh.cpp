@@ -111,7 +111,7 @@ $Elements
 $EndElements
 )";
 
-Mesh read(const std::string& text) {
+Mesh<2> read(const std::string& text) {
     std::istringstream input(text);
     return read_gmsh(input, "plate.msh");
 }
@@ -136,7 +136,7 @@ void refused(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE("4-node quadrilaterals become 8-node ones with shared straight sides") {
-    const Mesh mesh = read(linear);
+    const Mesh<2> mesh = read(linear);
     CHECK(mesh.elements.size() == 2);
     CHECK(mesh.nodes.size() == 13);
     CHECK(mesh.elements[0][5] == mesh.elements[1][7]);  // the side between them
@@ -153,7 +153,7 @@ TEST_CASE("4-node quadrilaterals become 8-node ones with shared straight sides")
 }
 
 TEST_CASE("8-node quadrilaterals keep their curved sides") {
-    const Mesh mesh = read(quadratic);
+    const Mesh<2> mesh = read(quadratic);
     CHECK(mesh.nodes.size() == 13);
     const auto& wet = mesh.surface("wet");
     REQUIRE(wet.size() == 2);
@@ -161,14 +161,14 @@ TEST_CASE("8-node quadrilaterals keep their curved sides") {
 }
 
 TEST_CASE("a mesh from a file is solved as the same mesh made here") {
-    Options options;
-    options.youngs_modulus = 1e6;
-    options.poissons_ratio = 0.3;
-    options.density = 1000;
+    Options<2> options;
+    options.material.youngs_modulus = 1e6;
+    options.material.poissons_ratio = 0.3;
+    options.material.density = 1000;
     options.clamps = {{"clamp", {true, true}}};
-    Solver from_file(read(linear), options);
+    Solver<2> from_file(read(linear), options);
     options.clamps = {{"left", {true, true}}};
-    Solver made(box_mesh({0, 0}, {2, 1}, 2, 1), options);
+    Solver<2> made(box_mesh({0, 0}, {2, 1}, 2, 1), options);
     from_file.solve_static(test::traction(from_file.mesh(), "wet", {0, 1e4}), serial_loop);
     made.solve_static(test::traction(made.mesh(), "bottom", {0, 1e4}), serial_loop);
     const double a = from_file.displacements()[2 * test::nearest_node(from_file.mesh(), 2, 1) + 1];

@@ -17,18 +17,18 @@ using namespace aquagraph::solid::test;
 
 namespace {
 
-Options gate_options() {
-    Options options;
-    options.law = MaterialLaw::neo_hookean;
-    options.youngs_modulus = 11.96e6;
-    options.poissons_ratio = 0.4;
-    options.density = 1100;
+Options<2> gate_options() {
+    Options<2> options;
+    options.material.law = MaterialLaw::neo_hookean;
+    options.material.youngs_modulus = 11.96e6;
+    options.material.poissons_ratio = 0.4;
+    options.material.density = 1100;
     options.gravity = {0, -9.81};
     options.clamps = {{"top", {true, true}}};
     return options;
 }
 
-Mesh gate_mesh() {
+Mesh<2> gate_mesh() {
     return box_mesh({0, 0}, {0.005, 0.079}, 4, 40);
 }
 
@@ -46,11 +46,11 @@ void with_message(const std::string& part, const Check& check) {
 }  // namespace
 
 TEST_CASE("bitwise the same on 1, 2 and 4 threads") {
-    const Mesh mesh = box_mesh({0, 0}, {0.02, 0.08}, 24, 96);  // 2304 elements: several blocks of everything
-    const Options options = gate_options();
+    const Mesh<2> mesh = box_mesh({0, 0}, {0.02, 0.08}, 24, 96);  // 2304 elements: several blocks of everything
+    const Options<2> options = gate_options();
     std::vector<double> serial;
     for (const unsigned threads : {0u, 1u, 2u, 4u}) {
-        Solver solver(mesh, options);
+        Solver<2> solver(mesh, options);
         const ThreadedLoop threaded{threads};
         const BlockLoop loop = threads == 0 ? BlockLoop(serial_loop) : BlockLoop(threaded);
         const auto load = traction(mesh, "left", {2000, 0});
@@ -66,20 +66,20 @@ TEST_CASE("bitwise the same on 1, 2 and 4 threads") {
 }
 
 TEST_CASE("a restart continues with the same bits, through other step sizes and loads") {
-    const Mesh mesh = gate_mesh();
+    const Mesh<2> mesh = gate_mesh();
     const auto load = traction(mesh, "left", {700, 0});
-    const auto go = [&](Solver& solver, int first, int last) {
+    const auto go = [&](Solver<2>& solver, int first, int last) {
         std::vector<double> now(load.size());
         for (int k = first; k < last; ++k) {
             for (std::size_t f = 0; f < now.size(); ++f) now[f] = load[f] * (1 + 0.3 * std::sin(0.7 * k));
             solver.advance(1e-4 * (1 + 0.1 * (k % 5)), now, serial_loop);
         }
     };
-    Solver straight(mesh, gate_options());
+    Solver<2> straight(mesh, gate_options());
     State state;
     go(straight, 0, 37);
     straight.save(state);
-    Solver restarted(mesh, gate_options());
+    Solver<2> restarted(mesh, gate_options());
     go(restarted, 0, 3);  // whatever it did before must not matter
     restarted.restore(state);
     CHECK(copy(straight.positions()) == copy(restarted.positions()));
@@ -98,22 +98,22 @@ TEST_CASE("a restart continues with the same bits, through other step sizes and 
 }
 
 TEST_CASE("saved before the first step and after a static solve, it also continues with the same bits") {
-    const Mesh mesh = gate_mesh();
+    const Mesh<2> mesh = gate_mesh();
     const auto load = traction(mesh, "left", {700, 0});
-    Solver straight(mesh, gate_options()), restarted(mesh, gate_options());
+    Solver<2> straight(mesh, gate_options()), restarted(mesh, gate_options());
     straight.solve_static(no_load(mesh), serial_loop);
     State state;
     straight.save(state);
     restarted.restore(state);
-    for (Solver* solver : {&straight, &restarted})
+    for (Solver<2>* solver : {&straight, &restarted})
         for (int k = 0; k < 5; ++k) solver->advance(1e-4, load, serial_loop);
     CHECK(copy(straight.accelerations()) == copy(restarted.accelerations()));
 }
 
 TEST_CASE("a step allocates nothing while its factorisation is reused, CHOLMOD included") {
     const CountCholmodToo counting;
-    const Mesh mesh = gate_mesh();
-    Solver solver(mesh, gate_options());
+    const Mesh<2> mesh = gate_mesh();
+    Solver<2> solver(mesh, gate_options());
     const auto load = traction(mesh, "left", {50, 0});
     for (int k = 0; k < 20; ++k) solver.advance(2e-5, load, serial_loop);
     const Statistics before = solver.statistics();
@@ -126,9 +126,9 @@ TEST_CASE("a step allocates nothing while its factorisation is reused, CHOLMOD i
 }
 
 TEST_CASE("the factorisation is reused, also when the step changes a little, and renewed when it changes much") {
-    const Mesh mesh = gate_mesh();
+    const Mesh<2> mesh = gate_mesh();
     const auto load = traction(mesh, "left", {50, 0});
-    Solver constant(mesh, gate_options()), changing(mesh, gate_options());
+    Solver<2> constant(mesh, gate_options()), changing(mesh, gate_options());
     for (int k = 0; k < 40; ++k) {
         constant.advance(2e-5, load, serial_loop);
         changing.advance(2e-5 * (1 + 0.01 * (k % 3)), load, serial_loop);
@@ -141,9 +141,9 @@ TEST_CASE("the factorisation is reused, also when the step changes a little, and
 }
 
 TEST_CASE("a reused factorisation leads to the same motion as a new one at every step") {
-    const Mesh mesh = gate_mesh();
+    const Mesh<2> mesh = gate_mesh();
     const auto load = traction(mesh, "left", {700, 0});
-    Solver reusing(mesh, gate_options()), renewing(mesh, gate_options());
+    Solver<2> reusing(mesh, gate_options()), renewing(mesh, gate_options());
     State state;
     for (int k = 0; k < 200; ++k) {
         reusing.advance(2e-4, load, serial_loop);
@@ -161,10 +161,10 @@ TEST_CASE("a reused factorisation leads to the same motion as a new one at every
 }
 
 TEST_CASE("the first acceleration balances the first load") {
-    Options options = gate_options();
+    Options<2> options = gate_options();
     options.clamps.clear();
-    const Mesh mesh = gate_mesh();
-    Solver solver(mesh, options);
+    const Mesh<2> mesh = gate_mesh();
+    Solver<2> solver(mesh, options);
     solver.advance(1e-6, no_load(mesh), serial_loop);
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
         CHECK(std::abs(solver.accelerations()[2 * n]) < 1e-8);
@@ -173,9 +173,9 @@ TEST_CASE("the first acceleration balances the first load") {
 }
 
 TEST_CASE("at rest it stays at rest, in equilibrium it stays there") {
-    const Mesh mesh = gate_mesh();
-    Options options = gate_options();
-    Solver hanging(mesh, options);
+    const Mesh<2> mesh = gate_mesh();
+    Options<2> options = gate_options();
+    Solver<2> hanging(mesh, options);
     hanging.solve_static(no_load(mesh), serial_loop);
     const auto before = copy(hanging.displacements());
     for (int k = 0; k < 50; ++k) hanging.advance(1e-4, no_load(mesh), serial_loop);
@@ -184,20 +184,20 @@ TEST_CASE("at rest it stays at rest, in equilibrium it stays there") {
     for (std::size_t f = 0; f < before.size(); ++f)
         CHECK(std::abs(hanging.displacements()[f] - before[f]) < 1e-6 * stretch);
     options.gravity = {};
-    Solver resting(mesh, options);
+    Solver<2> resting(mesh, options);
     resting.advance(1e-4, no_load(mesh), serial_loop);
     for (const double u : resting.displacements()) CHECK(u == 0);
 }
 
 TEST_CASE("long steps converge too") {  // far beyond what the predictor stands: the plate takes its water load at once
-    Options options;
-    options.youngs_modulus = 67.5e9;
-    options.poissons_ratio = 0.34;
-    options.density = 2700;
+    Options<2> options;
+    options.material.youngs_modulus = 67.5e9;
+    options.material.poissons_ratio = 0.34;
+    options.material.density = 2700;
     options.clamps = {{"left", {true, true}}, {"right", {true, true}}};
-    const Mesh mesh = box_mesh({0, 0}, {1, 0.05}, 40, 4);
+    const Mesh<2> mesh = box_mesh({0, 0}, {1, 0.05}, 40, 4);
     const auto load = traction(mesh, "top", {0, -1000 * 9.81 * 2});
-    Solver solver(mesh, options), still(mesh, options);
+    Solver<2> solver(mesh, options), still(mesh, options);
     for (int k = 0; k < 200; ++k) solver.advance(0.01, load, serial_loop);
     still.solve_static(load, serial_loop);
     const std::size_t middle = 2 * nearest_node(mesh, 0.5, 0.025) + 1;
@@ -205,8 +205,8 @@ TEST_CASE("long steps converge too") {  // far beyond what the predictor stands:
 }
 
 TEST_CASE("a load that cannot be borne is an error, and the solver stays where it was") {
-    const Mesh mesh = gate_mesh();
-    Solver solver(mesh, gate_options());
+    const Mesh<2> mesh = gate_mesh();
+    Solver<2> solver(mesh, gate_options());
     for (int k = 0; k < 5; ++k) solver.advance(1e-4, no_load(mesh), serial_loop);
     const auto u = copy(solver.displacements()), v = copy(solver.velocities()), a = copy(solver.accelerations());
     auto load = traction(mesh, "left", {700, 0});
@@ -221,7 +221,7 @@ TEST_CASE("a load that cannot be borne is an error, and the solver stays where i
     CHECK(copy(solver.displacements()) == u);
     CHECK(copy(solver.velocities()) == v);
     CHECK(copy(solver.accelerations()) == a);
-    Solver twin(mesh, gate_options());
+    Solver<2> twin(mesh, gate_options());
     for (int k = 0; k < 5; ++k) twin.advance(1e-4, no_load(mesh), serial_loop);
     State state;
     twin.save(state);
@@ -231,31 +231,31 @@ TEST_CASE("a load that cannot be borne is an error, and the solver stays where i
 }
 
 TEST_CASE("a body that nothing holds has no static equilibrium") {
-    Options options = gate_options();
+    Options<2> options = gate_options();
     options.clamps.clear();
-    const Mesh mesh = gate_mesh();
-    Solver solver(mesh, options);
+    const Mesh<2> mesh = gate_mesh();
+    Solver<2> solver(mesh, options);
     with_message("clamp", [&] { solver.solve_static(no_load(mesh), serial_loop); });
     with_message("not positive definite", [&] { solver.solve_static(no_load(mesh), serial_loop); });
 }
 
 TEST_CASE("options out of range are refused") {
-    const Mesh mesh = gate_mesh();
+    const Mesh<2> mesh = gate_mesh();
     const auto refused = [&](const std::string& part, const auto& change) {
-        Options options = gate_options();
+        Options<2> options = gate_options();
         change(options);
-        CHECK_THROWS_AS(Solver(mesh, options), std::invalid_argument);
-        with_message(part, [&] { Solver(mesh, options); });
+        CHECK_THROWS_AS(Solver<2>(mesh, options), std::invalid_argument);
+        with_message(part, [&] { Solver<2>(mesh, options); });
     };
-    refused("Young", [](Options& o) { o.youngs_modulus = 0; });
-    refused("Poisson", [](Options& o) { o.poissons_ratio = 0.5; });
-    refused("density", [](Options& o) { o.density = -1; });
-    refused("thickness", [](Options& o) { o.thickness = 0; });
-    refused("alpha", [](Options& o) { o.alpha = 0.1; });
-    refused("alpha", [](Options& o) { o.alpha = -1.0 / 3; });
-    refused("it has: bottom, left, right, top", [](Options& o) { o.clamps = {{"roof", {true, true}}}; });
-    refused("plane strain only", [](Options& o) { o.plane = PlaneCondition::stress; });
-    Solver solver(mesh, gate_options());
+    refused("Young", [](Options<2>& o) { o.material.youngs_modulus = 0; });
+    refused("Poisson", [](Options<2>& o) { o.material.poissons_ratio = 0.5; });
+    refused("density", [](Options<2>& o) { o.material.density = -1; });
+    refused("thickness", [](Options<2>& o) { o.thickness = 0; });
+    refused("alpha", [](Options<2>& o) { o.alpha = 0.1; });
+    refused("alpha", [](Options<2>& o) { o.alpha = -1.0 / 3; });
+    refused("it has: bottom, left, right, top", [](Options<2>& o) { o.clamps = {{"roof", {true, true}}}; });
+    refused("plane strain only", [](Options<2>& o) { o.plane = PlaneCondition::stress; });
+    Solver<2> solver(mesh, gate_options());
     CHECK_THROWS_AS(solver.advance(0, no_load(mesh), serial_loop), std::invalid_argument);
     CHECK_THROWS_AS(solver.advance(1e-4, std::vector<double>(3), serial_loop), std::invalid_argument);
     CHECK_THROWS_AS(solver.solve_static(std::vector<double>(3), serial_loop), std::invalid_argument);
@@ -265,14 +265,14 @@ TEST_CASE("options out of range are refused") {
 }
 
 TEST_CASE("von Mises stress of a cantilever is that of beam theory") {
-    Options options = gate_options();
-    options.law = MaterialLaw::saint_venant_kirchhoff;
-    options.poissons_ratio = 0;
+    Options<2> options = gate_options();
+    options.material.law = MaterialLaw::saint_venant_kirchhoff;
+    options.material.poissons_ratio = 0;
     options.gravity = {};
     options.clamps = {{"left", {true, true}}};
     constexpr double L = 1, h = 0.1, P = 1e-3;
-    const Mesh mesh = box_mesh({0, 0}, {L, h}, 40, 8);
-    Solver solver(mesh, options);
+    const Mesh<2> mesh = box_mesh({0, 0}, {L, h}, 40, 8);
+    Solver<2> solver(mesh, options);
     solver.solve_static(traction(mesh, "right", {0, P / h}), serial_loop);
     std::vector<double> stress(mesh.elements.size());
     solver.element_stress(stress);

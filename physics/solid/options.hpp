@@ -1,0 +1,50 @@
+// What a solid is made of, held by and taken through time with.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+namespace aquagraph::solid {
+
+enum class MaterialLaw { saint_venant_kirchhoff, linear, neo_hookean, mooney_rivlin };
+enum class PlaneCondition { strain, stress };
+enum class Scheme { hht, newmark };
+
+struct Material {
+    MaterialLaw law = MaterialLaw::saint_venant_kirchhoff;
+    double density = 0;         // ρ_S > 0 [kg/m³], in the reference configuration
+    double youngs_modulus = 0;  // E > 0 [Pa]; all laws but Mooney–Rivlin
+    double poissons_ratio = 0;  // ν in ]-1, 1/2[
+    double c10 = 0, c01 = 0;    // Mooney–Rivlin: C_10 + C_01 > 0 [Pa]
+    double bulk_modulus = 0;    // Mooney–Rivlin: κ > 0 [Pa]
+};
+
+// The elements of a set that are of another material than the rest.
+struct Part {
+    std::string set;
+    Material material;
+};
+
+// Every node of a set keeps its reference position in the directions marked (x, y, z).
+template <int D>
+struct Clamp {
+    std::string set;
+    std::array<bool, D> fixed{};
+};
+
+template <int D>
+struct Options {
+    Material material;                              // of all elements that are in no part
+    std::vector<Part> parts;                        // an element in several is of the last
+    PlaneCondition plane = PlaneCondition::strain;  // D = 2
+    double thickness = 1;                           // D = 2: > 0 [m], in the reference configuration
+    std::array<double, D> gravity{};                // [m/s²]
+    Scheme scheme = Scheme::hht;
+    double alpha = -0.3;  // αs in ]-1/3, 0]
+    std::vector<Clamp<D>> clamps;
+    double residual_tolerance = 1e-8;   // of the largest of |F_ext|, |F_int|, |M a| (Euclidean norms over free nodes)
+    double increment_tolerance = 1e-6;  // of |u_n+1 - u_n|: bounds the displacement error that Newton leaves
+    int max_iterations = 30;            // of one Newton solve
+};
+
+}  // namespace aquagraph::solid
