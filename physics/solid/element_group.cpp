@@ -11,8 +11,7 @@ std::unique_ptr<ElementGroup<D>> make_element_group(const Mesh<D>& mesh, std::ve
                                                     const Material& material, const Options<D>& options) {
     const double E = material.youngs_modulus, nu = material.poissons_ratio;
     const bool plane_stress = D == 2 && options.plane == PlaneCondition::stress;
-    const double thickness = D == 2 ? options.thickness : 1;
-    const auto make = [&](const auto& law) { return volume_elements(mesh, std::move(members), law, thickness); };
+    const auto make = [&](const auto& law) { return volume_elements(mesh, std::move(members), law, options); };
     switch (material.law) {
         case MaterialLaw::saint_venant_kirchhoff:
             if constexpr (D == 2)

@@ -31,6 +31,17 @@ inline Lane positive_part(const Lane& x) {
     return x > 0 ? x : Lane{};
 }
 
+inline double smallest_lane(const Lane& x) {
+    double least = x[0];
+    for (std::size_t l = 1; l < lanes; ++l) least = smaller(x[l], least);
+    return least;
+}
+inline double sum_of_lanes(const Lane& x) {
+    double sum = 0;
+    for (std::size_t l = 0; l < lanes; ++l) sum += x[l];
+    return sum;
+}
+
 // J^(-1/3) by Halley's iteration from 1, a fixed number of times: no branch and no call. To rounding for
 // 0.05 < J < 20.
 template <class T>

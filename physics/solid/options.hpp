@@ -9,6 +9,11 @@ namespace aquagraph::solid {
 enum class MaterialLaw { saint_venant_kirchhoff, linear, neo_hookean, mooney_rivlin };
 enum class PlaneCondition { strain, stress };
 enum class Scheme { hht, newmark };
+// Gauss points of quadratic elements: 2^D, with which they do not lock, but with which a single element, or a column of
+// hexahedra one by one across, has modes without energy; or 3^D (tetrahedra 4 or 14).
+enum class Integration { reduced, full };
+// What elements of 4 or 8 nodes do: enhanced assumed strains, or displacements alone, which lock.
+enum class LinearElements { enhanced, displacement };
 
 struct Material {
     MaterialLaw law = MaterialLaw::saint_venant_kirchhoff;
@@ -38,7 +43,9 @@ struct Options {
     std::vector<Part> parts;                        // an element in several is of the last
     PlaneCondition plane = PlaneCondition::strain;  // D = 2
     double thickness = 1;                           // D = 2: > 0 [m], in the reference configuration
-    std::array<double, D> gravity{};                // [m/s²]
+    LinearElements linear_elements = LinearElements::enhanced;
+    Integration integration = Integration::reduced;
+    std::array<double, D> gravity{};  // [m/s²]
     Scheme scheme = Scheme::hht;
     double alpha = -0.3;  // αs in ]-1/3, 0]
     std::vector<Clamp<D>> clamps;

@@ -87,7 +87,8 @@ void Solver<D>::Implementation::solve_static(std::span<const double> loads, Bloc
         text << "solid: no static equilibrium beyond " << 100 * reached << " % of the load: " << result.description();
         if (result.outcome == NewtonResult::Outcome::not_positive_definite)
             text << ". Either the clamps leave the body free to move, or it buckles under this load: clamp it or load "
-                    "it less";
+                    "it less. (A column of quadratic hexahedra one by one across moves without energy: give it two "
+                    "across, or full integration)";
         else
             text << ". Load it less, or refine the mesh where it deforms most";
         throw ConvergenceError(text.str());

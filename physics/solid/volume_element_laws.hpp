@@ -9,6 +9,6 @@ namespace aquagraph::solid {
 
 template <int D, class Law>
 std::unique_ptr<ElementGroup<D>> volume_elements(const Mesh<D>& mesh, std::vector<ElementIndex> members, const Law& law,
-                                                 double thickness);
+                                                 const Options<D>& options);
 
 }  // namespace aquagraph::solid

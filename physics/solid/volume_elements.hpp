@@ -10,6 +10,75 @@
 
 namespace aquagraph::solid {
 
+// Nodes of packs of elements.
+template <std::size_t Nodes, int D>
+class Connectivity {
+  public:
+    Connectivity(const ElementGroup<D>& group, const Mesh<D>& mesh) : nodes_(group.packs() * Nodes * lanes) {
+        for (std::size_t p = 0; p < group.packs(); ++p)
+            for (std::size_t l = 0; l < lanes; ++l)
+                for (std::size_t a = 0; a < Nodes; ++a)
+                    nodes_[(p * Nodes + a) * lanes + l] = element(group, mesh, p, l)[a];
+    }
+    // Whether there is an element on this lane; the last one stands in where there is none.
+    static bool real(const ElementGroup<D>& group, std::size_t p, std::size_t l) {
+        return p * lanes + l < group.members().size();
+    }
+    static const Element& element(const ElementGroup<D>& group, const Mesh<D>& mesh, std::size_t p, std::size_t l) {
+        return mesh.elements[std::size_t(group.members()[std::min(p * lanes + l, group.members().size() - 1)])];
+    }
+    void gather(std::size_t p, std::span<const double> u, Lane (&U)[Nodes][D]) const {
+        for (std::size_t a = 0; a < Nodes; ++a)
+            for (std::size_t l = 0; l < lanes; ++l) {
+                const auto node = std::size_t(nodes_[(p * Nodes + a) * lanes + l]);
+                for (std::size_t i = 0; i < D; ++i) U[a][i][l] = u[D * node + i];
+            }
+    }
+
+  private:
+    std::vector<int> nodes_;  // [pack][node][lane]
+};
+
+// In arrays of double there is no promise of 64-byte alignment.
+using UnalignedLane = double __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+template <std::size_t Nodes, int D>
+inline Tensor<D, Lane> displacement_gradient(const auto& point, const Lane (&U)[Nodes][D]) {
+    Tensor<D, Lane> H;
+    for (std::size_t a = 0; a < Nodes; ++a)
+        for (std::size_t i = 0; i < D; ++i)
+            for (std::size_t J = 0; J < D; ++J) H(i, J) += U[a][i] * point.dN_dX[a][J];
+    return H;
+}
+
+// K_ai,bk += w N_a,J A_iJkL N_b,L
+template <std::size_t Nodes, int D>
+inline void add_tangent(const auto& point, const FullTangent<D, Lane>& A, UnalignedLane* K) {
+    for (std::size_t b = 0; b < Nodes; ++b) {
+        Lane along[D * D][D] = {};  // w A_iJkL N_b,L
+        for (std::size_t iJ = 0; iJ < D * D; ++iJ)
+            for (std::size_t k = 0; k < D; ++k) {
+                for (std::size_t L = 0; L < D; ++L) along[iJ][k] += A.c[iJ][D * k + L] * point.dN_dX[b][L];
+                along[iJ][k] *= point.weight;
+            }
+        for (std::size_t a = b; a < Nodes; ++a)
+            for (std::size_t i = 0; i < D; ++i)
+                for (std::size_t k = 0; k < (a == b ? i + 1 : D); ++k) {
+                    UnalignedLane& entry = K[packed_index(D * a + i, D * b + k)];
+                    Lane sum = entry;
+                    for (std::size_t J = 0; J < D; ++J) sum += point.dN_dX[a][J] * along[D * i + J][k];
+                    entry = sum;
+                }
+    }
+}
+
+template <std::size_t Nodes, int D>
+inline void store_forces(const Lane (&f)[Nodes][D], double* out) {
+    for (std::size_t a = 0; a < Nodes; ++a)
+        for (std::size_t i = 0; i < D; ++i)
+            for (std::size_t l = 0; l < lanes; ++l) out[(D * a + i) * lanes + l] = f[a][i][l];
+}
+
 template <class Type, class Law>
 class VolumeElements final : public ElementGroup<Type::dimension> {
     static constexpr int D = Type::dimension;
@@ -22,21 +91,21 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
     };
 
   public:
-    VolumeElements(const Mesh<D>& mesh, std::vector<ElementIndex> members, const Law& law, double thickness)
-        : Group(std::move(members), nodes), law_(law), points_per_element_(Type::stiffness_rule().size()) {
-        const auto rule = Type::stiffness_rule();
-        points_.resize(Group::packs() * points_per_element_);
-        connectivity_.resize(Group::packs() * nodes * lanes);
+    VolumeElements(const Mesh<D>& mesh, std::vector<ElementIndex> members, const Law& law, double thickness,
+                   const std::vector<GaussPoint<D>>& rule)
+        : Group(std::move(members), nodes),
+          law_(law),
+          points_per_element_(rule.size()),
+          points_(Group::packs() * points_per_element_),
+          connectivity_(*this, mesh) {
         for (std::size_t p = 0; p < Group::packs(); ++p)
             for (std::size_t l = 0; l < lanes; ++l) {
-                const std::size_t member = p * lanes + l, count = Group::members().size();
-                const Element& element = mesh.elements[std::size_t(Group::members()[std::min(member, count - 1)])];
-                const auto X = coordinates<Type>(mesh, element);
-                for (std::size_t a = 0; a < nodes; ++a) connectivity_[(p * nodes + a) * lanes + l] = element[a];
+                const auto X = coordinates<Type>(mesh, connectivity_.element(*this, mesh, p, l));
                 for (std::size_t g = 0; g < points_per_element_; ++g) {
                     const auto gradients = reference_gradients(Type::shape(rule[g].xi), X);
                     Point& point = points_[p * points_per_element_ + g];
-                    point.weight[l] = member < count ? rule[g].weight * gradients.jacobian * thickness : 0;
+                    point.weight[l] =
+                        connectivity_.real(*this, p, l) ? rule[g].weight * gradients.jacobian * thickness : 0;
                     for (std::size_t a = 0; a < nodes; ++a)
                         for (std::size_t i = 0; i < D; ++i) point.dN_dX[a][i][l] = gradients.dN_dX[a][i];
                 }
@@ -47,11 +116,11 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
                          std::span<double> smallest_J) const override {
         for (std::size_t p = first; p < last; ++p) {
             Lane U[nodes][D], f[nodes][D] = {};
-            gather(p, u, U);
+            connectivity_.gather(p, u, U);
             Lane smallest = Lane{} + 1.0;
             for (std::size_t g = 0; g < points_per_element_; ++g) {
                 const Point& point = points_[p * points_per_element_ + g];
-                const auto k = kinematics<Law, D, Lane>(gradient(point, U));
+                const auto k = kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(point, U));
                 smallest = smaller(k.J_minus_1 + 1.0, smallest);
                 const Tensor<D, Lane> P = first_piola(law_, k);
                 for (std::size_t i = 0; i < D; ++i) {
@@ -61,12 +130,8 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
                         for (std::size_t J = 0; J < D; ++J) f[a][i] += weighted[J] * point.dN_dX[a][J];
                 }
             }
-            double* out = &forces[p * Group::force_size()];
-            for (std::size_t a = 0; a < nodes; ++a)
-                for (std::size_t i = 0; i < D; ++i)
-                    for (std::size_t l = 0; l < lanes; ++l) out[(D * a + i) * lanes + l] = f[a][i][l];
-            smallest_J[p] = smallest[0];
-            for (std::size_t l = 1; l < lanes; ++l) smallest_J[p] = std::min(smallest_J[p], smallest[l]);
+            store_forces<nodes, D>(f, &forces[p * Group::force_size()]);
+            smallest_J[p] = smallest_lane(smallest);
         }
     }
 
@@ -75,13 +140,13 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
                   std::span<double> matrices) const override {
         for (std::size_t p = first; p < last; ++p) {
             Lane U[nodes][D];
-            gather(p, u, U);
+            connectivity_.gather(p, u, U);
             auto* K = reinterpret_cast<UnalignedLane*>(&matrices[p * Group::matrix_size()]);
             std::fill(K, K + packed_index(Group::rows(), 0), Lane{});
             for (std::size_t g = 0; g < points_per_element_; ++g) {
                 const Point& point = points_[p * points_per_element_ + g];
-                const auto k = kinematics<Law, D, Lane>(gradient(point, U));
-                add_tangent(point, full_tangent(law_, k), K);
+                const auto k = kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(point, U));
+                add_tangent<nodes>(point, full_tangent(law_, k), K);
             }
         }
     }
@@ -90,82 +155,32 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
                   std::span<double> energies) const override {
         for (std::size_t p = first; p < last; ++p) {
             Lane U[nodes][D], sum{};
-            gather(p, u, U);
+            connectivity_.gather(p, u, U);
             for (std::size_t g = 0; g < points_per_element_; ++g) {
                 const Point& point = points_[p * points_per_element_ + g];
-                sum += point.weight * law_.energy(kinematics<Law, D, Lane>(gradient(point, U)));
+                sum += point.weight * law_.energy(kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(point, U)));
             }
-            energies[p] = 0;
-            for (std::size_t l = 0; l < lanes; ++l) energies[p] += sum[l];
+            energies[p] = sum_of_lanes(sum);
         }
     }
 
     void von_mises(std::span<const double> u, std::span<double> stress) const override {
         for (std::size_t p = 0; p < Group::packs(); ++p) {
             Lane U[nodes][D], sum{};
-            gather(p, u, U);
+            connectivity_.gather(p, u, U);
             for (std::size_t g = 0; g < points_per_element_; ++g)
-                sum +=
-                    solid::von_mises(law_, kinematics<Law, D, Lane>(gradient(points_[p * points_per_element_ + g], U)));
+                sum += solid::von_mises(law_, kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(
+                                                  points_[p * points_per_element_ + g], U)));
             for (std::size_t l = 0; l < lanes && p * lanes + l < Group::members().size(); ++l)
                 stress[std::size_t(Group::members()[p * lanes + l])] = sum[l] / double(points_per_element_);
         }
     }
 
   private:
-    // In arrays of double there is no promise of 64-byte alignment.
-    using UnalignedLane =
-        double __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
-
-    void gather(std::size_t p, std::span<const double> u, Lane (&U)[nodes][D]) const {
-        for (std::size_t a = 0; a < nodes; ++a)
-            for (std::size_t l = 0; l < lanes; ++l) {
-                const auto node = std::size_t(connectivity_[(p * nodes + a) * lanes + l]);
-                for (std::size_t i = 0; i < D; ++i) U[a][i][l] = u[D * node + i];
-            }
-    }
-
-    static Tensor<D, Lane> gradient(const Point& point, const Lane (&U)[nodes][D]) {
-        Tensor<D, Lane> H;
-        for (std::size_t a = 0; a < nodes; ++a)
-            for (std::size_t i = 0; i < D; ++i)
-                for (std::size_t J = 0; J < D; ++J) H(i, J) += U[a][i] * point.dN_dX[a][J];
-        return H;
-    }
-
-    static void add_tangent(const Point& point, const FullTangent<D, Lane>& A, UnalignedLane* K) {
-        for (std::size_t b = 0; b < nodes; ++b) {
-            Lane along[D * D][D] = {};  // w A_iJkL N_b,L
-            for (std::size_t iJ = 0; iJ < D * D; ++iJ)
-                for (std::size_t k = 0; k < D; ++k) {
-                    for (std::size_t L = 0; L < D; ++L) along[iJ][k] += A.c[iJ][D * k + L] * point.dN_dX[b][L];
-                    along[iJ][k] *= point.weight;
-                }
-            for (std::size_t a = b; a < nodes; ++a)
-                for (std::size_t i = 0; i < D; ++i)
-                    for (std::size_t k = 0; k < (a == b ? i + 1 : D); ++k) {
-                        UnalignedLane& entry = K[packed_index(D * a + i, D * b + k)];
-                        Lane sum = entry;
-                        for (std::size_t J = 0; J < D; ++J) sum += point.dN_dX[a][J] * along[D * i + J][k];
-                        entry = sum;
-                    }
-        }
-    }
-
     Law law_;
     std::size_t points_per_element_;
-    std::vector<Point> points_;      // [pack][point]
-    std::vector<int> connectivity_;  // [pack][node][lane]
+    std::vector<Point> points_;  // [pack][point]
+    Connectivity<nodes, D> connectivity_;
 };
-
-// The group of this law, whatever the type of the elements.
-template <int D, class Law>
-std::unique_ptr<ElementGroup<D>> volume_elements(const Mesh<D>& mesh, std::vector<ElementIndex> members, const Law& law,
-                                                 double thickness) {
-    const std::size_t nodes = mesh.elements[std::size_t(members.front())].size();
-    return with_element_type<D>(nodes, [&]<class Type>(Type) -> std::unique_ptr<ElementGroup<D>> {
-        return std::make_unique<VolumeElements<Type, Law>>(mesh, std::move(members), law, thickness);
-    });
-}
 
 }  // namespace aquagraph::solid

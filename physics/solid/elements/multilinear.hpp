@@ -1,5 +1,5 @@
 // The four-node quadrilateral and the eight-node hexahedron: N_a = Π_d ½ (1 + ξ_ad ξ_d) (Zienkiewicz & Taylor, The
-// Finite Element Method, vol. 1, 8.4). Integrated in full they lock; see enhanced strain for the remedy.
+// Finite Element Method, vol. 1, 8.4). On their own they lock; enhanced_elements.hpp is the remedy.
 #pragma once
 #include "physics/solid/elements/shape.hpp"
 

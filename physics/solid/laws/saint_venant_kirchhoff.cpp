@@ -1,11 +1,10 @@
-#include "physics/solid/volume_element_laws.hpp"
-#include "physics/solid/volume_elements.hpp"
+#include "physics/solid/law_elements.hpp"
 
 namespace aquagraph::solid {
 
 template std::unique_ptr<ElementGroup<2>> volume_elements(const Mesh<2>&, std::vector<ElementIndex>,
-                                                          const SaintVenantKirchhoff<2>&, double);
+                                                          const SaintVenantKirchhoff<2>&, const Options<2>&);
 template std::unique_ptr<ElementGroup<3>> volume_elements(const Mesh<3>&, std::vector<ElementIndex>,
-                                                          const SaintVenantKirchhoff<3>&, double);
+                                                          const SaintVenantKirchhoff<3>&, const Options<3>&);
 
 }  // namespace aquagraph::solid
