@@ -82,14 +82,15 @@ class EnhancedElements final : public ElementGroup<D> {
     void internal_forces(std::span<const double> u, std::size_t first, std::size_t last, std::span<double> forces,
                          std::span<double> smallest_J) const override {
         for (std::size_t p = first; p < last; ++p) {
+            const auto& law = law_of_pack(law_, p);
             Lane U[nodes][D], f[nodes][D] = {}, smallest = Lane{} + 1.0;
             connectivity_.gather(p, u, U);
-            const Enhancement enhancement = enhance(p, U);
+            const Enhancement enhancement = enhance(law, p, U);
             for (std::size_t g = 0; g < points; ++g) {
                 const Point& point = points_[p * points + g];
                 const auto k = state(point, U, enhancement);
                 smallest = smaller(determinant_minus_1(k.H) + 1.0, smaller(k.J_minus_1 + 1.0, smallest));
-                const Tensor<D, Lane> P = first_piola(law_, k);
+                const Tensor<D, Lane> P = first_piola(law, k);
                 for (std::size_t a = 0; a < nodes; ++a)
                     for (std::size_t i = 0; i < D; ++i)
                         for (std::size_t J = 0; J < D; ++J) f[a][i] += point.weight * P(i, J) * point.dN_dX[a][J];
@@ -103,9 +104,10 @@ class EnhancedElements final : public ElementGroup<D> {
     void tangents(std::span<const double> u, std::size_t first, std::size_t last,
                   std::span<double> matrices) const override {
         for (std::size_t p = first; p < last; ++p) {
+            const auto& law = law_of_pack(law_, p);
             Lane U[nodes][D];
             connectivity_.gather(p, u, U);
-            const Enhancement enhancement = enhance(p, U);
+            const Enhancement enhancement = enhance(law, p, U);
             auto* K = reinterpret_cast<UnalignedLane*>(&matrices[p * Group::matrix_size()]);
             std::fill(K, K + packed_index(D * nodes, 0), Lane{});
             Lane mixed[mode_count][D * nodes] = {};  // K_αu
@@ -113,8 +115,8 @@ class EnhancedElements final : public ElementGroup<D> {
             for (std::size_t g = 0; g < points; ++g) {
                 const Point& point = points_[p * points + g];
                 const auto k = state(point, U, enhancement);
-                add_tangent<nodes>(point, full_tangent(law_, k), K);
-                const auto along = add_inner(point, law_.tangent(k), inner);
+                add_tangent<nodes>(point, full_tangent(law, k), K);
+                const auto along = add_inner(point, law.tangent(k), inner);
                 for (std::size_t m = 0; m < mode_count; ++m) {  // (F C:G_m)·∇N_a
                     Tensor<D, Lane> FD = along[m];
                     if constexpr (!Law::small_strain)
@@ -134,22 +136,24 @@ class EnhancedElements final : public ElementGroup<D> {
     void energies(std::span<const double> u, std::size_t first, std::size_t last,
                   std::span<double> energies) const override {
         for (std::size_t p = first; p < last; ++p) {
+            const auto& law = law_of_pack(law_, p);
             Lane U[nodes][D], sum{};
             connectivity_.gather(p, u, U);
-            const Enhancement enhancement = enhance(p, U);
+            const Enhancement enhancement = enhance(law, p, U);
             for (std::size_t g = 0; g < points; ++g)
-                sum += points_[p * points + g].weight * law_.energy(state(points_[p * points + g], U, enhancement));
+                sum += points_[p * points + g].weight * law.energy(state(points_[p * points + g], U, enhancement));
             energies[p] = sum_of_lanes(sum);
         }
     }
 
     void von_mises(std::span<const double> u, std::span<double> stress) const override {
         for (std::size_t p = 0; p < Group::packs(); ++p) {
+            const auto& law = law_of_pack(law_, p);
             Lane U[nodes][D], sum{};
             connectivity_.gather(p, u, U);
-            const Enhancement enhancement = enhance(p, U);
+            const Enhancement enhancement = enhance(law, p, U);
             for (std::size_t g = 0; g < points; ++g)
-                sum += solid::von_mises(law_, state(points_[p * points + g], U, enhancement));
+                sum += solid::von_mises(law, state(points_[p * points + g], U, enhancement));
             for (std::size_t l = 0; l < lanes && connectivity_.real(*this, p, l); ++l)
                 stress[std::size_t(Group::members()[p * lanes + l])] = sum[l] / double(points);
         }
@@ -257,7 +261,8 @@ class EnhancedElements final : public ElementGroup<D> {
             for (std::size_t k = m + 1; k < mode_count; ++k) x[m] -= A[k][m] * x[k];
     }
 
-    Enhancement enhance(std::size_t p, const Lane (&U)[nodes][D]) const {
+    template <class PackLaw>
+    Enhancement enhance(const PackLaw& law, std::size_t p, const Lane (&U)[nodes][D]) const {
         Enhancement enhancement{};
         for (int iteration = 0; iteration < most_iterations; ++iteration) {
             ModeMatrix inner{};
@@ -265,9 +270,9 @@ class EnhancedElements final : public ElementGroup<D> {
             for (std::size_t g = 0; g < points; ++g) {
                 const Point& point = points_[p * points + g];
                 const auto k = state(point, U, enhancement);
-                const auto S = law_.stress(k);
+                const auto S = law.stress(k);
                 for (std::size_t m = 0; m < mode_count; ++m) residual[m] -= point.weight * mode_dot(point.G[m], S);
-                add_inner(point, law_.tangent(k), inner);
+                add_inner(point, law.tangent(k), inner);
             }
             factorise(inner);
             solve(inner, residual);

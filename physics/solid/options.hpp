@@ -6,7 +6,7 @@
 
 namespace aquagraph::solid {
 
-enum class MaterialLaw { saint_venant_kirchhoff, linear, neo_hookean, mooney_rivlin };
+enum class MaterialLaw { saint_venant_kirchhoff, linear, neo_hookean, mooney_rivlin, uniaxial_curve };
 enum class PlaneCondition { strain, stress };
 enum class Scheme { hht, newmark };
 // Gauss points of quadratic elements: 2^D, with which they do not lock, but with which a single element, or a column of
@@ -15,13 +15,34 @@ enum class Integration { reduced, full };
 // What elements of 4 or 8 nodes do: enhanced assumed strains, or displacements alone, which lock.
 enum class LinearElements { enhanced, displacement };
 
+// Parallel cords in a layer of rubber; three dimensions, neo-Hookean or Mooney–Rivlin rubber.
+struct CordFamily {
+    double modulus = 0;    // E_c > 0 of the cord in tension [Pa]; it bears no compression
+    double section = 0;    // A > 0 of one cord [m²]
+    double spacing = 0;    // > 0 between cords [m]
+    double thickness = 0;  // > 0 of the layer that the elements stand for [m]
+    double angle = 0;      // from the layer's reference direction, by the right hand about its normal [rad]
+};
+
+// How an element's layer lies: its normal is the element's thinnest direction; the reference direction lies in the
+// layer. With an axis: the direction around it, the normal pointing away from it. Without: `along` [1] projected on the
+// layer, the normal on the side of `normal` [1].
+struct LayerFrame {
+    bool around_axis = false;
+    std::array<double, 3> point{}, axis{0, 1, 0};
+    std::array<double, 3> along{1, 0, 0}, normal{0, 0, 1};
+};
+
 struct Material {
     MaterialLaw law = MaterialLaw::saint_venant_kirchhoff;
-    double density = 0;         // ρ_S > 0 [kg/m³], in the reference configuration
-    double youngs_modulus = 0;  // E > 0 [Pa]; all laws but Mooney–Rivlin
-    double poissons_ratio = 0;  // ν in ]-1, 1/2[
-    double c10 = 0, c01 = 0;    // Mooney–Rivlin: C_10 + C_01 > 0 [Pa]
-    double bulk_modulus = 0;    // Mooney–Rivlin: κ > 0 [Pa]
+    double density = 0;                        // ρ_S > 0 [kg/m³], in the reference configuration
+    double youngs_modulus = 0;                 // E > 0 [Pa]; all laws but Mooney–Rivlin and a curve
+    double poissons_ratio = 0;                 // ν in ]-1, 1/2[
+    double c10 = 0, c01 = 0;                   // Mooney–Rivlin: C_10 + C_01 > 0 [Pa]
+    double bulk_modulus = 0;                   // Mooney–Rivlin: κ > 0 [Pa]
+    std::vector<std::array<double, 2>> curve;  // uniaxial_curve: strain and force per reference area [Pa]; with ν
+    std::vector<CordFamily> cords;
+    LayerFrame layer;  // of the cords
 };
 
 // The elements of a set that are of another material than the rest.

@@ -22,12 +22,17 @@ bool positive(double x) {
 
 void check(const Material& material) {
     require(positive(material.density), "the density must be positive");
+    for (const CordFamily& cords : material.cords)
+        require(
+            positive(cords.modulus) && positive(cords.section) && positive(cords.spacing) && positive(cords.thickness),
+            "modulus, section, spacing and layer thickness of cords must be positive");
     if (material.law == MaterialLaw::mooney_rivlin) {
         require(positive(material.c10 + material.c01), "C10 + C01 must be positive");
         require(positive(material.bulk_modulus), "the bulk modulus must be positive");
         return;
     }
-    require(positive(material.youngs_modulus), "Young's modulus must be positive");
+    require(material.law == MaterialLaw::uniaxial_curve || positive(material.youngs_modulus),
+            "Young's modulus must be positive");
     require(material.poissons_ratio > -1 && material.poissons_ratio < 0.5, "Poisson's ratio must lie in ]-1, 1/2[");
 }
 

@@ -39,6 +39,15 @@ class Connectivity {
     std::vector<int> nodes_;  // [pack][node][lane]
 };
 
+// The law as it is in pack p: laws with directions of their own differ from element to element.
+template <class Law>
+decltype(auto) law_of_pack(const Law& law, std::size_t p) {
+    if constexpr (requires { law.of_pack(p); })
+        return law.of_pack(p);
+    else
+        return (law);
+}
+
 // In arrays of double there is no promise of 64-byte alignment.
 using UnalignedLane = double __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
 
@@ -115,6 +124,7 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
     void internal_forces(std::span<const double> u, std::size_t first, std::size_t last, std::span<double> forces,
                          std::span<double> smallest_J) const override {
         for (std::size_t p = first; p < last; ++p) {
+            const auto& law = law_of_pack(law_, p);
             Lane U[nodes][D], f[nodes][D] = {};
             connectivity_.gather(p, u, U);
             Lane smallest = Lane{} + 1.0;
@@ -122,7 +132,7 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
                 const Point& point = points_[p * points_per_element_ + g];
                 const auto k = kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(point, U));
                 smallest = smaller(k.J_minus_1 + 1.0, smallest);
-                const Tensor<D, Lane> P = first_piola(law_, k);
+                const Tensor<D, Lane> P = first_piola(law, k);
                 for (std::size_t i = 0; i < D; ++i) {
                     Lane weighted[D];
                     for (std::size_t J = 0; J < D; ++J) weighted[J] = point.weight * P(i, J);
@@ -139,6 +149,7 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
     void tangents(std::span<const double> u, std::size_t first, std::size_t last,
                   std::span<double> matrices) const override {
         for (std::size_t p = first; p < last; ++p) {
+            const auto& law = law_of_pack(law_, p);
             Lane U[nodes][D];
             connectivity_.gather(p, u, U);
             auto* K = reinterpret_cast<UnalignedLane*>(&matrices[p * Group::matrix_size()]);
@@ -146,7 +157,7 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
             for (std::size_t g = 0; g < points_per_element_; ++g) {
                 const Point& point = points_[p * points_per_element_ + g];
                 const auto k = kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(point, U));
-                add_tangent<nodes>(point, full_tangent(law_, k), K);
+                add_tangent<nodes>(point, full_tangent(law, k), K);
             }
         }
     }
@@ -154,11 +165,12 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
     void energies(std::span<const double> u, std::size_t first, std::size_t last,
                   std::span<double> energies) const override {
         for (std::size_t p = first; p < last; ++p) {
+            const auto& law = law_of_pack(law_, p);
             Lane U[nodes][D], sum{};
             connectivity_.gather(p, u, U);
             for (std::size_t g = 0; g < points_per_element_; ++g) {
                 const Point& point = points_[p * points_per_element_ + g];
-                sum += point.weight * law_.energy(kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(point, U)));
+                sum += point.weight * law.energy(kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(point, U)));
             }
             energies[p] = sum_of_lanes(sum);
         }
@@ -166,11 +178,12 @@ class VolumeElements final : public ElementGroup<Type::dimension> {
 
     void von_mises(std::span<const double> u, std::span<double> stress) const override {
         for (std::size_t p = 0; p < Group::packs(); ++p) {
+            const auto& law = law_of_pack(law_, p);
             Lane U[nodes][D], sum{};
             connectivity_.gather(p, u, U);
             for (std::size_t g = 0; g < points_per_element_; ++g)
-                sum += solid::von_mises(law_, kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(
-                                                  points_[p * points_per_element_ + g], U)));
+                sum += solid::von_mises(law, kinematics<Law, D, Lane>(displacement_gradient<nodes, D>(
+                                                 points_[p * points_per_element_ + g], U)));
             for (std::size_t l = 0; l < lanes && p * lanes + l < Group::members().size(); ++l)
                 stress[std::size_t(Group::members()[p * lanes + l])] = sum[l] / double(points_per_element_);
         }

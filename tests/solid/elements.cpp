@@ -394,7 +394,7 @@ Mesh<Type::dimension> shaken(double amount) {
 template <int D>
 Options<D> options_of(MaterialLaw law) {
     Options<D> options;
-    options.material = {law, 2, 3, 0.3, 0.4, 0.2, 5};
+    options.material = material(law, 2, 3, 0.3, 0.4, 0.2, 5);
     return options;
 }
 
@@ -490,8 +490,8 @@ TEST_CASE("parts of another material: the stiff half of a bar stretches less") {
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
         if (mesh.nodes[std::size_t(mesh.elements[e][0])][0] > 0.99) mesh.element_sets["outer"].push_back(int(e));
     Options<3> options;
-    options.material = {MaterialLaw::linear, 2, 3, 0, 0, 0, 0};
-    options.parts = {{"outer", {MaterialLaw::linear, 2, 12, 0, 0, 0, 0}}};
+    options.material = material(MaterialLaw::linear, 2, 3, 0);
+    options.parts = {{"outer", material(MaterialLaw::linear, 2, 12, 0)}};
     options.clamps = {{"left", {true, true, true}}};
     std::vector<double> no_force(3 * mesh.nodes.size(), 0.0);
     no_force[3 * std::size_t(mesh.node_set("right")[1]) + 1] = 1e-3;  // one element across has modes without energy

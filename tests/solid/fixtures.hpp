@@ -33,6 +33,20 @@ inline std::vector<double> traction(const Mesh<2>& mesh, const std::string& surf
     return forces;
 }
 
+// Every number that a law may want.
+inline Material material(MaterialLaw law, double density, double E, double nu, double c10 = 0, double c01 = 0,
+                         double bulk_modulus = 0) {
+    Material made;
+    made.law = law;
+    made.density = density;
+    made.youngs_modulus = E;
+    made.poissons_ratio = nu;
+    made.c10 = c10;
+    made.c01 = c01;
+    made.bulk_modulus = bulk_modulus;
+    return made;
+}
+
 inline std::size_t nearest_node(const Mesh<2>& mesh, double x, double y) {
     std::size_t best = 0;
     const auto distance = [&](std::size_t n) { return std::hypot(mesh.nodes[n][0] - x, mesh.nodes[n][1] - y); };

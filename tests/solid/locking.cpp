@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "physics/solid/solver.hpp"
+#include "tests/solid/fixtures.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::solid;
@@ -15,7 +15,7 @@ template <int D>
 double cantilever(const Mesh<D>& mesh, LinearElements kind, double nu, MaterialLaw law) {
     constexpr double L = 10, h = 1, E = 1e4, P = 1e-3;
     Options<D> options;
-    options.material = {law, 1, E, nu, 0, 0, 0};
+    options.material = test::material(law, 1, E, nu);
     options.linear_elements = kind;
     options.clamps = {{"left", {}}};
     options.clamps[0].fixed.fill(true);
@@ -77,7 +77,7 @@ TEST_CASE("Cook's membrane, nearly incompressible, in four-node quadrilaterals")
             y = 44 * s + t * (44 - 28 * s);
         }
         Options<2> options;
-        options.material = {MaterialLaw::linear, 1, 1, 0.4999, 0, 0, 0};
+        options.material = test::material(MaterialLaw::linear, 1, 1, 0.4999);
         options.linear_elements = kind;
         options.clamps = {{"left", {true, true}}};
         Solver<2> solver(mesh, options);
