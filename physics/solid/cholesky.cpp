@@ -1,12 +1,24 @@
 #include "physics/solid/cholesky.hpp"
 
 #include <cholmod.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <new>
 #include <stdexcept>
 
 namespace aquagraph::solid {
+
+namespace {
+
+// OpenBLAS and BLIS each have a function for it; other libraries have no threads of their own, or are told by the
+// environment.
+void keep_blas_to_one_thread() {
+    if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
+    if (void* set = dlsym(RTLD_DEFAULT, "bli_thread_set_num_threads")) reinterpret_cast<void (*)(long)>(set)(1);
+}
+
+}  // namespace
 
 struct Cholesky::Implementation {
     cholmod_common common{};
@@ -16,9 +28,10 @@ struct Cholesky::Implementation {
     cholmod_dense *solution = nullptr, *workspace_y = nullptr, *workspace_e = nullptr;  // kept by cholmod_solve2
 
     Implementation() {
+        keep_blas_to_one_thread();
         cholmod_start(&common);
         common.print = 0;
-        common.supernodal = CHOLMOD_SIMPLICIAL;
+        common.supernodal = CHOLMOD_AUTO;
         common.final_ll = 1;  // L Lᵀ, not L D Lᵀ: an indefinite matrix must be noticed
     }
     ~Implementation() {
@@ -51,8 +64,20 @@ Cholesky::Cholesky(const std::vector<int>& column_starts, const std::vector<int>
 
 Cholesky::~Cholesky() = default;
 
+double Cholesky::nonzeros() const {
+    return implementation_->common.lnz;
+}
+
+double Cholesky::factorisation_operations() const {
+    return implementation_->common.fl;
+}
+
 std::span<double> Cholesky::values() {
     return {static_cast<double*>(implementation_->matrix->x), implementation_->matrix->nzmax};
+}
+
+std::span<const double> Cholesky::values() const {
+    return {static_cast<const double*>(implementation_->matrix->x), implementation_->matrix->nzmax};
 }
 
 bool Cholesky::factorise() {

@@ -57,8 +57,12 @@ std::string NewtonResult::description() const {
 template <int D>
 bool Solver<D>::Implementation::factorise_dynamic(const std::vector<double>& at, double dt, BlockLoop loop) {
     assembly.system_matrix(at, newmark.weight_new * newmark.beta * dt * dt, 1, cholesky.values(), loop);
+    ++statistics.matrices;
+    factor = {true, dt, 0, 0, 0};
+    by_gradients = gradients_are_cheaper(dt);
+    if (by_gradients) return true;
     ++statistics.factorisations;
-    factor = {cholesky.factorise(), dt, 0, 0, 0};
+    factor.valid = cholesky.factorise();
     return factor.valid;
 }
 
@@ -67,6 +71,7 @@ template <int D>
 void Solver<D>::Implementation::find_initial_accelerations(BlockLoop loop) {
     assembly.internal_forces(u, internal, loop);
     assembly.system_matrix(u, 0, 1, cholesky.values(), loop);
+    ++statistics.matrices;
     ++statistics.factorisations;
     factor = {};
     if (!cholesky.factorise()) throw ConvergenceError("solid: the mass matrix is not positive definite");
@@ -133,7 +138,7 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
         }
         if (result.iterations == options.max_iterations) return result.outcome = Outcome::too_many_iterations, result;
 
-        cholesky.solve(residual, correction);
+        if (!solve_linear(residual, correction, loop)) return result.outcome = Outcome::not_positive_definite, result;
         for (std::size_t e = 0; e < correction.size(); ++e) {
             const std::size_t f = assembly.freedoms()[e];
             a[f] += correction[e];

@@ -9,6 +9,7 @@ namespace aquagraph::solid {
 enum class MaterialLaw { saint_venant_kirchhoff, linear, neo_hookean, mooney_rivlin, uniaxial_curve };
 enum class PlaneCondition { strain, stress };
 enum class Scheme { hht, newmark };
+enum class LinearSolver { automatic, cholesky, conjugate_gradients };
 // Gauss points of quadratic elements: 2^D, with which they do not lock, but with which a single element, or a column of
 // hexahedra one by one across, has modes without energy; or 3^D (tetrahedra 4 or 14).
 enum class Integration { reduced, full };
@@ -73,6 +74,7 @@ struct Options {
     double residual_tolerance = 1e-8;   // of the largest of |F_ext|, |F_int|, |M a| (Euclidean norms over free nodes)
     double increment_tolerance = 1e-6;  // of |u_n+1 - u_n|: bounds the displacement error that Newton leaves
     int max_iterations = 30;            // of one Newton solve
+    LinearSolver linear_solver = LinearSolver::automatic;  // of time steps; static solves always factorise
 };
 
 }  // namespace aquagraph::solid

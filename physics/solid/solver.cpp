@@ -64,7 +64,8 @@ Solver<D>::Implementation::Implementation(Mesh<D> given_mesh, const Options<D>& 
       options(checked(given_options)),
       newmark(newmark_coefficients(options.scheme, options.alpha)),
       assembly(mesh, options),
-      cholesky(assembly.column_starts(), assembly.rows()) {
+      cholesky(assembly.column_starts(), assembly.rows()),
+      gradients(assembly.column_starts(), assembly.rows()) {
     require(assembly.equations() > 0, "the clamps leave nothing free");
     for (auto* field : {&u, &v, &a, &positions, &internal, &inertia, &external, &previous_external, &previous_internal,
                         &old_u, &old_v, &old_a, &predicted_u, &static_start, &static_target})

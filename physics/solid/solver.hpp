@@ -39,11 +39,13 @@ struct Energies {        // [J]
 };
 
 struct Statistics {
-    long steps = 0;              // calls of advance
-    long newton_iterations = 0;  // linear solves, all steps and static solves together
-    long factorisations = 0;     // numeric Cholesky factorisations
-    int last_iterations = 0;     // of the last step
-    double last_residual = 0;    // |r| / reference at the end of the last step
+    long steps = 0;                // calls of advance
+    long newton_iterations = 0;    // linear solves, all steps and static solves together
+    long factorisations = 0;       // numeric Cholesky factorisations
+    long matrices = 0;             // assemblies of a system matrix
+    long gradient_iterations = 0;  // of conjugate gradients, all together
+    int last_iterations = 0;       // of the last step
+    double last_residual = 0;      // |r| / reference at the end of the last step
 };
 
 // Everything that the next step depends on, to write to a checkpoint.

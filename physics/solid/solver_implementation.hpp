@@ -7,6 +7,7 @@
 
 #include "physics/solid/assembly.hpp"
 #include "physics/solid/cholesky.hpp"
+#include "physics/solid/conjugate_gradients.hpp"
 #include "physics/solid/newmark.hpp"
 #include "physics/solid/solver.hpp"
 
@@ -47,6 +48,10 @@ struct Solver<D>::Implementation {
     NewtonResult solve_step(double dt, Attempt attempt, BlockLoop loop);
     bool factorise_dynamic(const std::vector<double>& at, double dt, BlockLoop loop);  // false: not positive definite
 
+    // linear_solve.cpp: the system of a time step, by the factor or by conjugate gradients, whichever is cheaper
+    bool gradients_are_cheaper(double dt) const;
+    bool solve_linear(std::span<const double> b, std::span<double> x, BlockLoop loop);  // false: not positive definite
+
     // static_equilibrium.cpp
     void solve_static(std::span<const double> loads, BlockLoop loop);
     NewtonResult solve_increment(double load_factor, BlockLoop loop);
@@ -62,6 +67,7 @@ struct Solver<D>::Implementation {
     const NewmarkCoefficients newmark;
     Assembly<D> assembly;
     Cholesky cholesky;
+    ConjugateGradients gradients;
 
     // D × nodes
     std::vector<double> u, v, a, positions;
@@ -77,6 +83,7 @@ struct Solver<D>::Implementation {
     bool accelerations_known = false;
     double external_work = 0;
     FactorPolicy factor;
+    bool by_gradients = false;  // the matrix in `cholesky` has not been factorised
     Statistics statistics;
 };
 
