@@ -21,6 +21,7 @@
 
 #include "benchmarks/speed/block.hpp"
 #include "benchmarks/speed/results_file.hpp"
+#include "benchmarks/speed/solid.hpp"
 #include "benchmarks/speed/steps.hpp"
 #include "engine/run.hpp"
 #include "io/scene_reader.hpp"
@@ -241,6 +242,10 @@ std::string steps(int threads) {
     return title("steps", "Whole steps", threads) + benchmarks::step_tables(threads);
 }
 
+std::string finite_elements(int threads) {
+    return title("solid", "Finite elements", threads) + benchmarks::solid_tables(threads);
+}
+
 std::string cases(int threads) {
     return title("cases", "Cases: speed and error", threads) +
            fmt::format(
@@ -253,10 +258,10 @@ std::string cases(int threads) {
 constexpr struct {
     const char* name;
     std::string (*write)(int threads);
-} sections[] = {{"passes", passes}, {"steps", steps}, {"cases", cases}};
+} sections[] = {{"passes", passes}, {"steps", steps}, {"solid", finite_elements}, {"cases", cases}};
 
 constexpr const char* usage =
-    "usage: aquagraph-measure [--only passes|steps|cases] [--print]\n"
+    "usage: aquagraph-measure [--only passes|steps|solid|cases] [--print]\n"
     "  --only   measure this section alone; the others stay in benchmarks/RESULTS.md as they are\n"
     "  --print  write to the terminal alone\n";
 

@@ -92,9 +92,7 @@ std::string scheme_rows(std::size_t n, int steps, tasks::Executor& executor) {
     const OpenCodes& codes = open_codes[D - 2];
     for (const auto& [name, flux] : schemes()) {
         std::cerr << D << "D, " << name << "\n";
-        // The exact solver's pass is computed pair by pair (GCC does not vectorise it): fewer steps will do.
-        const bool slow = flux.solver == fluid::RiemannSolver::exact;
-        const Measured m = measure<D>(n, 2.6, 0.1, slow ? 1 : steps, flux, executor);
+        const Measured m = measure<D>(n, 2.6, 0.1, steps, flux, executor);
         const double rate = 4 * double(m.particles) / m.seconds_per_step / 1e6;
         rows += fmt::format("| {}D | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", D, name, rate, rate / codes.lammps,
                             rate / codes.sphinxsys, rate / codes.dualsphysics);

@@ -26,8 +26,10 @@ namespace aquagraph::solid {
 
 namespace {
 constexpr double smallest_step_ratio = 0.7, largest_step_ratio = 1.4;
-constexpr int factorisation_cost = 10;  // linear solves with their residuals; measured 8 to 15 on plane meshes
-constexpr int steps_when_new = 4;       // the most iterations of so many steps are what a new factorisation needs
+constexpr int factorisation_cost = 10;     // linear solves with their residuals; measured 8 to 15 on plane meshes
+constexpr double newton_tolerance = 1e-5;  // of conjugate gradients: Newton corrects what is left
+constexpr double to_rounding = 1e-14;      // a system that Newton does not come back to
+constexpr int steps_when_new = 4;          // the most iterations of so many steps are what a new factorisation needs
 }  // namespace
 
 std::string NewtonResult::description() const {
@@ -61,9 +63,7 @@ bool Solver<D>::Implementation::factorise_dynamic(const std::vector<double>& at,
     factor = {true, dt, 0, 0, 0};
     by_gradients = gradients_are_cheaper(dt);
     if (by_gradients) return true;
-    ++statistics.factorisations;
-    factor.valid = cholesky.factorise();
-    return factor.valid;
+    return factor.valid = factorise();
 }
 
 // M a_n = F_ext - F_int
@@ -72,14 +72,14 @@ void Solver<D>::Implementation::find_initial_accelerations(BlockLoop loop) {
     assembly.internal_forces(u, internal, loop);
     assembly.system_matrix(u, 0, 1, cholesky.values(), loop);
     ++statistics.matrices;
-    ++statistics.factorisations;
     factor = {};
-    if (!cholesky.factorise()) throw ConvergenceError("solid: the mass matrix is not positive definite");
     for (std::size_t e = 0; e < residual.size(); ++e) {
         const std::size_t f = assembly.freedoms()[e];
         residual[e] = external[f] - internal[f];
     }
-    cholesky.solve(residual, correction);
+    by_gradients = gradients_are_cheaper(0);
+    if ((!by_gradients && !factorise()) || !solve_linear(residual, correction, loop, to_rounding))
+        throw ConvergenceError("solid: the mass matrix is not positive definite");
     std::fill(old_a.begin(), old_a.end(), 0.0);
     for (std::size_t e = 0; e < correction.size(); ++e) old_a[assembly.freedoms()[e]] = correction[e];
 }
@@ -138,7 +138,8 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
         }
         if (result.iterations == options.max_iterations) return result.outcome = Outcome::too_many_iterations, result;
 
-        if (!solve_linear(residual, correction, loop)) return result.outcome = Outcome::not_positive_definite, result;
+        if (!solve_linear(residual, correction, loop, newton_tolerance))
+            return result.outcome = Outcome::not_positive_definite, result;
         for (std::size_t e = 0; e < correction.size(); ++e) {
             const std::size_t f = assembly.freedoms()[e];
             a[f] += correction[e];

@@ -17,8 +17,6 @@ constexpr double per_nonzero_of_matrix = 2;  // of a product: both triangles
 constexpr double solves_per_factor = 40;     // while steps change little
 constexpr double iterations_of_mass = 20;    // of conjugate gradients on M alone, for quadratic elements
 
-// Newton corrects what is left: about two corrections reach its own tolerance.
-constexpr double gradient_tolerance = 1e-5;
 constexpr int most_gradient_iterations = 500;
 
 }  // namespace
@@ -45,7 +43,14 @@ bool Solver<D>::Implementation::gradients_are_cheaper(double dt) const {
 }
 
 template <int D>
-bool Solver<D>::Implementation::solve_linear(std::span<const double> b, std::span<double> x, BlockLoop loop) {
+bool Solver<D>::Implementation::factorise() {
+    ++statistics.factorisations;
+    return cholesky.factorise();
+}
+
+template <int D>
+bool Solver<D>::Implementation::solve_linear(std::span<const double> b, std::span<double> x, BlockLoop loop,
+                                             double gradient_tolerance) {
     if (by_gradients) {
         const int iterations =
             gradients.solve(cholesky.values(), b, x, gradient_tolerance, most_gradient_iterations, loop);
@@ -54,8 +59,7 @@ bool Solver<D>::Implementation::solve_linear(std::span<const double> b, std::spa
             return true;
         }
         by_gradients = false;  // the same matrix, then by its factor
-        ++statistics.factorisations;
-        if (!cholesky.factorise()) return factor.valid = false;
+        if (!factorise()) return factor.valid = false;
     }
     cholesky.solve(b, x);
     return true;

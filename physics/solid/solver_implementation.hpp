@@ -50,7 +50,8 @@ struct Solver<D>::Implementation {
 
     // linear_solve.cpp: the system of a time step, by the factor or by conjugate gradients, whichever is cheaper
     bool gradients_are_cheaper(double dt) const;
-    bool solve_linear(std::span<const double> b, std::span<double> x, BlockLoop loop);  // false: not positive definite
+    bool factorise();  // the matrix in `cholesky`; false: not positive definite
+    bool solve_linear(std::span<const double> b, std::span<double> x, BlockLoop loop, double gradient_tolerance);
 
     // static_equilibrium.cpp
     void solve_static(std::span<const double> loads, BlockLoop loop);

@@ -40,8 +40,8 @@ NewtonResult Solver<D>::Implementation::solve_increment(double load_factor, Bloc
         if (result.iterations == options.max_iterations) return result.outcome = Outcome::too_many_iterations, result;
 
         assembly.system_matrix(u, 1, 0, cholesky.values(), loop);
-        ++statistics.factorisations;
-        if (!cholesky.factorise()) return result.outcome = Outcome::not_positive_definite, result;
+        ++statistics.matrices;
+        if (!factorise()) return result.outcome = Outcome::not_positive_definite, result;
         cholesky.solve(residual, correction);
         for (std::size_t e = 0; e < correction.size(); ++e) u[assembly.freedoms()[e]] += correction[e];
         const double size = norm_of_free(u);

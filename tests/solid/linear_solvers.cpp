@@ -73,7 +73,7 @@ TEST_CASE("the same motion by each linear solver") {
         CHECK(factored.statistics().gradient_iterations == 0);
         CHECK(factored.statistics().factorisations >= 2);
         CHECK(iterated.statistics().gradient_iterations > 0);
-        CHECK(iterated.statistics().factorisations == 1);  // of the mass, for the first acceleration
+        CHECK(iterated.statistics().factorisations == 0);
         double largest = 0, difference = 0;
         for (std::size_t k = 0; k < loads.size(); ++k) {
             largest = std::max(largest, std::abs(factored.displacements()[k]));
@@ -91,6 +91,6 @@ TEST_CASE("a system that conjugate gradients cannot solve in reasonable time is 
     const Mesh<2> mesh = box_mesh({0, 0}, {1, 0.05}, 100, 4);
     Solver<2> solver(mesh, options);
     solver.advance(1e-3, traction(mesh, "right", {0, 1e-3}), serial_loop);
-    CHECK(solver.statistics().factorisations >= 2);
+    CHECK(solver.statistics().factorisations >= 1);
     CHECK(solver.statistics().steps == 1);
 }
