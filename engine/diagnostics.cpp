@@ -35,7 +35,8 @@ Diagnostic probes(const io::Scene& scene, const Model<D>& model) {
          .writes = {},
          .body = [all,
                   &model] { tasks::for_each_block(all->size(), [&](std::size_t k) { (*all)[k].measure(model); }); }},
-        part};
+        part,
+        {}};
 }
 
 // The water's force on the walls that ask for it, at the end of the cycle: from the state reached there, with ghosts
@@ -60,6 +61,10 @@ class WallForcesTask {
         for (fluid::WallForces<D>& wall : forces_)
             tasks::for_each_block(wall.blocks(), [&](std::size_t block) { wall.compute(fluid_, block); });
         std::copy(fullness_.begin(), fullness_.end(), fluid_.particles.fullness.begin());
+    }
+
+    void archive(io::AnyArchive fields) {
+        for (fluid::WallForces<D>& wall : forces_) fields(wall);
     }
 
     void append(std::vector<double>& row) const {
@@ -120,6 +125,8 @@ class FluxWallForcesTask {
             }
     }
 
+    void archive(io::AnyArchive) {}  // all is found anew
+
     void append(std::vector<double>& row) const {
         for (const std::size_t w : asked_) row.insert(row.end(), total_[w].begin(), total_[w].end());
     }
@@ -146,7 +153,8 @@ Diagnostic wall_forces(const io::Scene& scene, Model<D>& model) {
              .writes = {resource::fluid_ghosts, resource::fluid_gradients, resource::ghost_gradients,
                         resource::fluid_rates, resource::wall_gamma, resource::wall_moments},
              .body = [forces] { forces->measure(); }},
-            part};
+            part,
+            [forces](io::AnyArchive fields) { forces->archive(fields); }};
 }
 
 }  // namespace

@@ -63,23 +63,25 @@ HistoryPart fluid_energies(const Model<D>& model) {
 template <int D>
 HistoryPart energy_balance(const Model<D>& model) {
     const std::string unit = per_depth<D>("J");
+    auto initial = std::make_shared<std::vector<double>>();  // of the first row
     return {{{"fluid_compression_energy", unit},
              {"fluid_dissipated_energy", unit},
              {"fluid_viscous_heat", unit},
              {"fluid_lost_energy", unit},
              {"fluid_wall_work", unit},
              {"fluid_energy_residual", unit}},
-            [&model, initial = std::optional<double>()](std::vector<double>& row) mutable {
+            [&model, initial](std::vector<double>& row) {
                 const fluid::EnergyLedger& ledger = model.fluid->ledger;
                 const fluid::FluidEnergies state = energies_of(model);
                 const double now = state.kinetic + state.potential;
-                if (!initial) initial = now;
+                if (initial->empty()) initial->push_back(now);
                 const double lost = ledger.lost + ledger.sum.displacement;
-                const double residual = now - *initial + ledger.sum.compression + ledger.sum.dissipation +
+                const double residual = now - initial->front() + ledger.sum.compression + ledger.sum.dissipation +
                                         ledger.sum.viscous + lost - ledger.sum.walls;
                 row.insert(row.end(), {ledger.sum.compression, ledger.sum.dissipation, ledger.sum.viscous, lost,
                                        ledger.sum.walls, residual});
-            }};
+            },
+            initial};
 }
 
 template <int D>

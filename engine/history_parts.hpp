@@ -1,6 +1,7 @@
 // The columns of history.csv, each group with what fills it: what a scene does not have or ask for is not there.
 #pragma once
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "engine/model.hpp"
@@ -11,6 +12,8 @@ namespace aquagraph::engine {
 struct HistoryPart {
     std::vector<io::HistoryColumn> columns;
     std::function<void(std::vector<double>&)> append;  // one value per column, of the model's present state
+    // What `append` remembers from row to row, for a checkpoint; null: nothing.
+    std::shared_ptr<std::vector<double>> memory{};
 };
 
 // The state of the clock, the fluid and the solid. The model must outlive the parts.

@@ -25,6 +25,11 @@ int main(int argc, char** argv) {
     run->add_option("--out", options.folder, "Folder of results (default: results/<scene name>)");
     run->add_option("--threads", options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
     run->add_option("--trace", options.trace, "Write when every task ran on which thread (Chrome trace JSON)");
+    run->add_option("--restart", options.restart,
+                    "Go on from this checkpoint; \"auto\": from the newest good one in the folder of results");
+    run->add_option("--checkpoint-every", options.checkpoint_every,
+                    "Minutes of wall-clock time between checkpoints (default: the scene's; 0: only when asked to stop)")
+        ->check(CLI::NonNegativeNumber);
     run->add_flag("--quiet", options.quiet, "No progress, no table");
 
     int check_threads = 0;

@@ -1,12 +1,16 @@
 #include "engine/results.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <system_error>
 
 #include "engine/field_columns.hpp"
 #include "engine/frames.hpp"
+#include "engine/restart_point.hpp"
 #include "engine/wall_parts.hpp"
 #include "io/scene_formulas.hpp"
 #include "io/scene_reader.hpp"
@@ -37,13 +41,25 @@ std::vector<io::HistoryColumn> columns_of(const io::Scene& scene, const std::vec
     return columns;
 }
 
-// An earlier run's frames would stand beside this one's, in no series, and be taken for its own.
-void remove_old_frames(const std::filesystem::path& folder) {
+// An earlier run's frames would stand beside this one's, in no series, and be taken for its own; its checkpoints would
+// be taken for this one's.
+void remove_old_results(const std::filesystem::path& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        const bool ours = name.starts_with("fluid_") || name.starts_with("solid_");
-        if ((ours && name.ends_with(".hdf")) || name == "fluid.hdf.series" || name == "solid.hdf.series")
+        const bool frame = name.starts_with("fluid_") || name.starts_with("solid_");
+        if ((frame && name.ends_with(".hdf")) || name == "fluid.hdf.series" || name == "solid.hdf.series")
             std::filesystem::remove(entry.path());
+    }
+    for (const int slot : {0, 1}) std::filesystem::remove(checkpoint_file(folder, slot));
+}
+
+// Frames from this number on.
+void remove_later_frames(const std::filesystem::path& folder, int number) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        for (const std::string stem : {"fluid", "solid"})
+            if (name.starts_with(stem + "_") && name.ends_with(".hdf") && name >= io::frame_name(stem, number))
+                std::filesystem::remove(entry.path());
     }
 }
 
@@ -57,7 +73,7 @@ double next_due(double t, double interval) {
 // The columns are made before anything is computed or written, so that a comparison with one that is not there ends at
 // once.
 template <int D>
-Results<D>::Results(const io::Scene& scene, Model<D>& model, std::filesystem::path folder)
+Results<D>::Results(const io::Scene& scene, Model<D>& model, std::filesystem::path folder, bool resumed)
     : scene_(scene),
       model_(model),
       parts_(history_parts(scene, model)),
@@ -68,10 +84,29 @@ Results<D>::Results(const io::Scene& scene, Model<D>& model, std::filesystem::pa
       fluid_series_((std::filesystem::create_directories(folder_), folder_ / "fluid.hdf.series")),
       solid_series_(folder_ / "solid.hdf.series"),
       flow_(scene.fluid ? scene.fluid->spacing : 1.0) {
-    remove_old_frames(folder_);
-    history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", columns_);
     if constexpr (D == 2)
         if (model.solid) boundary_ = solid::chain(solid::boundary_facets(model.solid->mesh()));
+    if (resumed) return;
+    remove_old_results(folder_);
+    history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", columns_);
+}
+
+template <int D>
+void Results<D>::resume() {
+    const std::filesystem::path file = folder_ / "history.csv";
+    const io::History history = std::filesystem::exists(file) ? io::read_history(file) : io::History{};
+    const auto time = history.time();
+    if (std::find(time.begin(), time.end(), row_time_) == time.end())
+        throw std::runtime_error(
+            fmt::format("{} has no row of t = {} s, with which the checkpoint goes on: restart in "
+                        "the folder of the run (--out), or start from the beginning",
+                        file.string(), row_time_));
+    history_ = std::make_unique<io::HistoryWriter>(io::HistoryWriter::resume(file, columns_, row_time_));
+    fluid_series_ = io::FrameSeries::resume(folder_ / "fluid.hdf.series", frame_time_);
+    solid_series_ = io::FrameSeries::resume(folder_ / "solid.hdf.series", frame_time_);
+    remove_later_frames(folder_, frames_);
+    next_frame_ = next_due(frame_time_, scene_.output.frame_interval);
+    if (scene_.output.history_interval > 0) next_row_ = next_due(row_time_, scene_.output.history_interval);
 }
 
 template <int D>

@@ -20,8 +20,22 @@ template <int D>
 class Results {
   public:
     // Makes the folder. Throws io::SceneError for a comparison with a column that will not be there, std::system_error
-    // where the folder cannot be written.
-    Results(const io::Scene& scene, Model<D>& model, std::filesystem::path folder);
+    // where the folder cannot be written. `resumed`: what is there stays until resume() is called.
+    Results(const io::Scene& scene, Model<D>& model, std::filesystem::path folder, bool resumed = false);
+
+    // For a checkpoint: what has been written, and what columns remember.
+    template <class Archive>
+    void archive(Archive& fields) {
+        fields(row_time_, frame_time_, frames_, flow_);
+        for (HistoryPart& part : parts_)
+            if (part.memory) fields(*part.memory);
+        for (Diagnostic& diagnostic : diagnostics_)
+            if (diagnostic.archive) diagnostic.archive(fields);
+    }
+    // Goes on with the files that are there, without what is later than the state that archive() has read. Throws
+    // std::runtime_error, before anything is changed, where the history does not reach that far or has other columns.
+    void resume();
+    void sync() { history_->sync(); }
 
     const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
     bool row_is_due() const;

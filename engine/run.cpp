@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <optional>
 #include <system_error>
 
+#include "engine/checkpoints.hpp"
 #include "engine/diagnosis.hpp"
 #include "engine/listings.hpp"
 #include "engine/results.hpp"
+#include "engine/stop_request.hpp"
 #include "io/progress.hpp"
 #include "tasks/executor.hpp"
 #include "tasks/task_graph.hpp"
@@ -25,26 +27,6 @@ namespace {
 
 // 42 MB a thread, taken only with --trace: some thousand cycles of a small scene.
 constexpr std::size_t trace_events_per_thread = std::size_t{1} << 20;
-
-volatile std::sig_atomic_t interrupt_requested = 0;
-
-// Turns Ctrl-C into a request that the loop below sees; a second one ends the program at once.
-class InterruptGuard {
-  public:
-    InterruptGuard() {
-        interrupt_requested = 0;
-        for (const int signal : {SIGINT, SIGTERM})
-            std::signal(signal, [](int number) {
-                interrupt_requested = 1;
-                std::signal(number, SIG_DFL);
-            });
-    }
-    ~InterruptGuard() {
-        for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-    }
-    InterruptGuard(const InterruptGuard&) = delete;
-    InterruptGuard& operator=(const InterruptGuard&) = delete;
-};
 
 std::string pass_name(const std::string& task) {
     return task.substr(0, task.find(" ("));
@@ -72,6 +54,23 @@ std::vector<PassTime> passes_of(const tasks::TaskGraph& graph) {
         pass.busy_seconds += statistics.busy_seconds;
         if (name == "gradients" || name == "fluxes" || name == "interface loads")
             pass.pairs += double(statistics.work_items);
+    }
+    return passes;
+}
+
+// Those of an earlier part of the run, and those of this one.
+std::vector<PassTime> together(std::vector<PassTime> passes, const std::vector<PassTime>& more) {
+    for (const PassTime& pass : more) {
+        auto same =
+            std::find_if(passes.begin(), passes.end(), [&](const PassTime& other) { return other.name == pass.name; });
+        if (same == passes.end()) {
+            passes.push_back(pass);
+            continue;
+        }
+        same->calls += pass.calls;
+        same->wall_seconds += pass.wall_seconds;
+        same->busy_seconds += pass.busy_seconds;
+        same->pairs += pass.pairs;
     }
     return passes;
 }
@@ -108,39 +107,59 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
             throw std::system_error(errno, std::generic_category(), "cannot write " + options.trace.string());
     }
 
+    std::optional<RestartPoint> from = find_restart_point(scene, folder, options.restart, err);
     const std::unique_ptr<Model<D>> model = make_model<D>(scene);
-    Results<D> results(scene, *model, folder);
+    Results<D> results(scene, *model, folder, from.has_value());
+    Checkpoints<D> checkpoints(scene, *model, results,
+                               options.checkpoint_every.value_or(scene.output.checkpoint_interval), from);
     std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
     for (tasks::Task& task : result_tasks(&results, results.diagnostics())) listing.push_back(std::move(task));
     tasks::TaskGraph graph(std::move(listing), executor, trace ? &*trace : nullptr);
 
-    const InterruptGuard guard;
+    RunFigures before;
+    if (from) {
+        executor.execute([&] { before = checkpoints.restore(*from); });
+        ++before.restarts;
+        from->state = {};
+    }
+    const StopSignals signals;
     const auto begin = std::chrono::steady_clock::now();
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    const auto figures = [&] {
+        return RunFigures{before.wall_seconds + seconds(), executor.threads(),
+                          together(before.passes, passes_of(graph)), before.restarts};
     };
     io::RunOutcome outcome = io::RunOutcome::finished;
     std::string message;
     std::optional<io::Progress> progress;
     if (!options.quiet)
-        progress.emplace(out, &out == &std::cout && io::Progress::is_terminal(STDOUT_FILENO), scene.end_time);
+        progress.emplace(out, &out == &std::cout && io::Progress::is_terminal(STDOUT_FILENO), scene.end_time,
+                         model->clock.time);
     Clock& clock = model->clock;
     try {
-        executor.execute([&] {
-            start(*model, scene);
-            for (const tasks::Task& task : first_evaluation(*model)) task.body();
-            results.measure();
-        });
-        results.history_if_due();
-        results.frame_if_due();
+        if (!from) {
+            executor.execute([&] {
+                start(*model, scene);
+                for (const tasks::Task& task : first_evaluation(*model)) task.body();
+                results.measure();
+            });
+            results.history_if_due();
+            results.frame_if_due();
+        }
         while (clock.time < clock.end * (1 - 1e-12)) {
-            if (interrupt_requested) {
+            if (signals.request() != StopRequest::none) {
                 outcome = io::RunOutcome::interrupted;
-                message = fmt::format("interrupted at t = {:.6g} s of {:.6g} s", clock.time, clock.end);
+                message = fmt::format("{} at t = {:.6g} s of {:.6g} s",
+                                      signals.request() == StopRequest::checkpoint ? "stopped" : "interrupted",
+                                      clock.time, clock.end);
+                checkpoints.write(figures());  // before anything is measured that an uninterrupted run would not
                 executor.execute([&] { results.measure(); });
                 break;
             }
             graph.run();
+            if (checkpoints.is_due() && clock.time < clock.end) checkpoints.write(figures());
             if (progress) progress->update({clock.time, clock.steps, clock.step, clock.limiter});
         }
     } catch (const tasks::TaskError& error) {
@@ -161,10 +180,14 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
     } catch (const solid::ConvergenceError& error) {
         outcome = io::RunOutcome::failed;
         message = error.what();
+    } catch (const std::system_error& error) {
+        outcome = io::RunOutcome::failed;
+        message = fmt::format("{} (t = {:.6g} s, step {}); the checkpoint before, if there is one, is untouched",
+                              error.what(), clock.time, clock.steps);
     }
     if (progress) progress->finish();
 
-    const RunEnd end{outcome, message, {seconds(), executor.threads(), passes_of(graph)}};
+    const RunEnd end{outcome, message, figures()};
     std::vector<io::Comparison> comparisons;
     try {
         if (outcome != io::RunOutcome::finished) {
@@ -196,8 +219,9 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
         return run_failed;
     }
     if (outcome == io::RunOutcome::interrupted) {
-        err << "aquagraph: " << message << "; results kept in " << folder.string() << "\n";
-        return interrupted;
+        err << "aquagraph: " << message << "; results kept in " << folder.string()
+            << (clock.steps > 0 ? "; go on with --restart auto\n" : "\n");
+        return signals.request() == StopRequest::checkpoint ? stopped : interrupted;
     }
     return success;
 }

@@ -61,6 +61,43 @@ void refuse_water_inside(const io::Scene& scene, const Model<2>& model) {
                                   "cut the water so that it ends at the solid's surface");
 }
 
+// A set of nodes may well be there under this name, and bear no load.
+template <class Mesh>
+void refuse_wet_nodes(const io::Scene& scene, const Mesh& mesh) {
+    for (std::size_t k = 0; k < scene.solid->wet.size(); ++k) {
+        const std::string& name = scene.solid->wet[k];
+        if (mesh.surfaces.contains(name) || !mesh.node_sets.contains(name)) continue;
+        std::string known;
+        for (const auto& [other, content] : mesh.surfaces) known += (known.empty() ? "" : ", ") + other;
+        throw io::scene_error(scene, "solid.wet[" + std::to_string(k) + "]",
+                              "'" + name +
+                                  "' is a set of nodes, and no surface: none of its nodes are joined by edges "
+                                  "of the body's boundary",
+                              known.empty() ? "name the wet curves of the boundary as physical curves of the mesh"
+                                            : "the body's surfaces are " + known);
+    }
+}
+
+// Where no water can come the coupling would do nothing, and say nothing.
+void refuse_out_of_reach(const io::Scene& scene, const Model<2>& model) {
+    const fluid::Panels<2>& panels = model.walls->panels;
+    const double reach = model.fluid->kernel.radius();
+    for (const fluid::Panel<2>& panel : panels.panels) {
+        if (!panel.wet) continue;
+        for (const int v : panel.vertex) {
+            const fluid::Vec2& x = panels.position[std::size_t(v)];
+            bool inside = true;
+            for (int d = 0; d < 2; ++d)
+                inside = inside && x[d] >= scene.domain.min[std::size_t(d)] - reach &&
+                         x[d] <= scene.domain.max[std::size_t(d)] + reach;
+            if (inside) return;
+        }
+    }
+    throw io::scene_error(scene, scene.solid->box ? "solid.box" : "solid.mesh",
+                          "the body's wet surfaces lie outside the domain: no water will ever reach them",
+                          "move the body to the water, or enlarge [domain]");
+}
+
 }  // namespace
 
 solid::Solver<2> make_solid(const io::Scene& scene) {
@@ -86,6 +123,7 @@ solid::Solver<2> make_solid(const io::Scene& scene) {
 
 coupling::Interface make_interface(const io::Scene& scene, Model<2>& model) {
     refuse_water_inside(scene, model);
+    refuse_wet_nodes(scene, model.solid->mesh());
     coupling::Interface interface;
     try {
         interface.surface =
@@ -93,6 +131,7 @@ coupling::Interface make_interface(const io::Scene& scene, Model<2>& model) {
     } catch (const std::invalid_argument& error) {
         throw io::scene_error(scene, "solid.wet", error.what(), "name surfaces of the mesh");
     }
+    refuse_out_of_reach(scene, model);
     interface.fluid_loads.assign(2 * model.solid->mesh().nodes.size(), 0.0);
     interface.solid_loads = interface.fluid_loads;
     return interface;

@@ -36,6 +36,7 @@ nlohmann::json summary_of(const io::Scene& scene, const Model<D>& model, const R
     summary["coupling_cycles"] = model.clock.cycles;
     summary["wall_seconds"] = end.figures.wall_seconds;
     summary["threads"] = end.figures.threads;
+    summary["restarts"] = end.figures.restarts;
     if (model.fluid) {
         summary["particles"] = model.fluid->particles.count;
         summary["particles_removed"] = model.fluid->removed;

@@ -17,6 +17,11 @@ struct PassTime {
     double wall_seconds = 0;  // start to end of the tasks
     double busy_seconds = 0;  // of all threads
     double pairs = 0;         // treated; 0: the pass has none
+
+    template <class Archive>
+    void archive(Archive& fields) {
+        fields(name, family, calls, wall_seconds, busy_seconds, pairs);
+    }
     double pairs_per_second() const { return busy_seconds > 0 ? pairs / busy_seconds : 0; }  // of one core
 };
 
@@ -24,6 +29,12 @@ struct RunFigures {
     double wall_seconds = 0;
     int threads = 0;
     std::vector<PassTime> passes;
+    int restarts = 0;  // from checkpoints; time and passes are those of all its parts together
+
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint
+        fields(wall_seconds, passes, restarts);
+    }
 };
 
 struct RunEnd {

@@ -1,5 +1,8 @@
 #include "io/atomic_file.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -40,6 +43,30 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
     }
     stream.reset();
     if (std::rename(part.c_str(), file.c_str()) != 0) fail(file, "cannot be replaced");
+}
+
+void write_file_durably(const std::filesystem::path& file, std::span<const std::string_view> pieces) {
+    const std::filesystem::path part = temporary_name(file);
+    Stream stream(std::fopen(part.c_str(), "wb"));
+    if (!stream) fail(file, "cannot be written");
+    bool written = true;
+    for (const std::string_view piece : pieces)
+        written = written && std::fwrite(piece.data(), 1, piece.size(), stream.get()) == piece.size();
+    written = written && std::fflush(stream.get()) == 0 && fsync(fileno(stream.get())) == 0;
+    const int reason = errno;
+    stream.reset();
+    if (!written || std::rename(part.c_str(), file.c_str()) != 0) {
+        const int last = written ? errno : reason;
+        std::remove(part.c_str());
+        errno = last;
+        fail(file, written ? "cannot be replaced" : "cannot be written");
+    }
+    // The new name is on the disk once its folder is.
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY); descriptor >= 0) {
+        fsync(descriptor);
+        close(descriptor);
+    }
 }
 
 std::string read_file(const std::filesystem::path& file) {

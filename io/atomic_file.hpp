@@ -1,6 +1,7 @@
 // Whole files that a reader never sees half written: a temporary file beside the target, then a rename.
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,9 @@ namespace aquagraph::io {
 
 // Throws std::system_error naming the file.
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+// The same of several pieces, one after the other, and it is on the disk when it returns: a power cut leaves the old
+// file or the new one. Slower: it waits for the disk.
+void write_file_durably(const std::filesystem::path& file, std::span<const std::string_view> pieces);
 std::string read_file(const std::filesystem::path& file);
 
 // The name under which `file` is written until it is complete; in the same folder.

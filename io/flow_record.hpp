@@ -34,6 +34,11 @@ class FlowRecord {
         std::size_t every = 1;                        // of so many particles one is kept
         std::vector<float> x, y, z, pressure, speed;  // z: in 3D
         std::vector<std::vector<Point>> outlines, walls;
+
+        template <class Archive>
+        void archive(Archive& fields) {
+            fields(time, every, x, y, z, pressure, speed, outlines, walls);
+        }
     };
 
     // spacing: Δx [m], the size of a drawn particle.
@@ -44,6 +49,11 @@ class FlowRecord {
     // taken from then on. Cheap where it is dropped. `wanted()` says beforehand whether the next one would be kept.
     bool wanted() const { return seen_ % stride_ == 0; }
     void add(const ReportFrame& frame);
+
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint
+        fields(frames_, seen_, stride_, bytes_);
+    }
 
     double spacing() const { return spacing_; }
     const std::vector<Frame>& frames() const { return frames_; }

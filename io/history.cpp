@@ -1,6 +1,7 @@
 #include "io/history.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -65,14 +66,17 @@ HistoryWriter HistoryWriter::resume(std::filesystem::path file, std::vector<Hist
     const History old = read_history(file);
     if (header(old.columns) != header(columns))
         throw std::runtime_error(fmt::format("{} has other columns than this run writes", file.string()));
-    // Rewritten as a whole, so that a crash in between leaves the old file or the new one.
-    std::string kept = header(columns);
-    std::vector<double> row(columns.size());
-    for (std::size_t i = 0; i < old.rows() && old.time()[i] <= last_time; ++i) {
-        for (std::size_t c = 0; c < row.size(); ++c) row[c] = old.values[c][i];
-        kept += written(row);
+    std::string kept = read_file(file);
+    std::size_t rows = 0, end = kept.find('\n') + 1;
+    while (rows < old.rows() && old.time()[rows] <= last_time) {
+        end = kept.find('\n', end) + 1;
+        ++rows;
     }
-    write_file_atomically(file, kept);
+    // Rewritten as a whole, so that a crash in between leaves the old file or the new one.
+    if (end != kept.size()) {
+        kept.resize(end);
+        write_file_atomically(file, kept);
+    }
     HistoryWriter writer;
     writer.file_ = std::move(file);
     writer.columns_ = columns.size();
@@ -95,6 +99,11 @@ void HistoryWriter::put(std::string_view text) {
 void HistoryWriter::flush() {
     if (std::fflush(stream_.get()) != 0) fail(file_);
     flushed_ = std::chrono::steady_clock::now();
+}
+
+void HistoryWriter::sync() {
+    flush();
+    if (fsync(fileno(stream_.get())) != 0 && errno != EINVAL) fail(file_);  // EINVAL: no file that lies on a disk
 }
 
 std::optional<std::size_t> History::find(std::string_view name) const {

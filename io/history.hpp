@@ -25,12 +25,14 @@ class HistoryWriter {
     HistoryWriter(std::filesystem::path file, std::vector<HistoryColumn> columns);
 
     // Goes on with a file that is there (a new one where it is not): rows later than `last_time` [s] and a row cut off
-    // by a crash are dropped. Throws std::runtime_error where its columns are others.
+    // by a crash are dropped, the others stay as they are, byte by byte. Throws std::runtime_error where its columns
+    // are others.
     static HistoryWriter resume(std::filesystem::path file, std::vector<HistoryColumn> columns, double last_time);
 
     // One value per column. Reaches the file within a second.
     void row(std::span<const double> values);
     void flush();
+    void sync();  // and waits until it is on the disk
 
     const std::filesystem::path& file() const { return file_; }
 

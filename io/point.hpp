@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace aquagraph::io {
 
@@ -11,7 +12,7 @@ class Point {
     Point(double x, double y) : x_{x, y, 0} {}
     Point(double x, double y, double z) : dimension_(3), x_{x, y, z} {}
 
-    int dimension() const { return dimension_; }
+    int dimension() const { return int(dimension_); }
     std::size_t size() const { return std::size_t(dimension_); }
     double operator[](std::size_t d) const { return x_[d]; }
     double& operator[](std::size_t d) { return x_[d]; }
@@ -29,7 +30,7 @@ class Point {
     }
 
   private:
-    int dimension_ = 2;
+    std::int64_t dimension_ = 2;  // wide, so that no byte is undefined: points are written as bytes (io/archive.hpp)
     std::array<double, 3> x_{};
 };
 

@@ -141,9 +141,10 @@ struct CouplingScene {
 };
 
 struct OutputScene {
-    double frame_interval = 0;    // [s]
-    double history_interval = 0;  // [s]; 0: every coupling cycle
-    bool energy_ledger = false;   // where the fluid's energy goes, and whether the balance closes
+    double frame_interval = 0;        // [s]
+    double history_interval = 0;      // [s]; 0: every coupling cycle
+    double checkpoint_interval = 10;  // [min] of wall-clock time; 0: only when the run is asked to stop
+    bool energy_ledger = false;       // where the fluid's energy goes, and whether the balance closes
 };
 
 // Columns of history.csv that sum over particles. Formulas of x y z t vx vy vz p rho fullness and the constants.

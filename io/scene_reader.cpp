@@ -59,6 +59,7 @@ class Filler {
         scene_.output.frame_interval = scene_.end_time / 100;
         document_.take("output.frame_interval", scene_.output.frame_interval);
         document_.take("output.history_interval", scene_.output.history_interval);
+        document_.take("output.checkpoint_interval", scene_.output.checkpoint_interval);
         document_.take("output.energy_ledger", scene_.output.energy_ledger);
         columns();
         comparisons();

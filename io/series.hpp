@@ -14,7 +14,7 @@ struct SeriesEntry {
 class FrameSeries {
   public:
     explicit FrameSeries(std::filesystem::path file);  // "…/fluid.hdf.series"; written with the first frame
-    // Goes on with a series that is there, without its frames later than last_time [s].
+    // Goes on with a series that is there, and takes frames later than last_time [s] out of it.
     static FrameSeries resume(std::filesystem::path file, double last_time);
 
     // Adds a frame and rewrites the file atomically. Throws std::system_error.
@@ -22,6 +22,7 @@ class FrameSeries {
     const std::vector<SeriesEntry>& entries() const { return entries_; }
 
   private:
+    void write() const;
     std::filesystem::path file_;
     std::vector<SeriesEntry> entries_;
 };

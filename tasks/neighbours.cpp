@@ -25,11 +25,12 @@ class NeighbourSearchTask {
     void operator()() {
         const fluid::Travel travel = most_travelled();
         // The lists of the last step allowed for a certain way; how fast particles are now says how far they went.
-        if (2 * last_step_ * std::sqrt(travel.speed2) > last_skin_) ++fluid_.outrun;
+        fluid::SearchRecord<D>& record = fluid_.record;
+        if (2 * record.step * std::sqrt(travel.speed2) > record.skin) ++fluid_.outrun;
         if (!lists_hold(travel)) rebuild();
-        last_step_ = clock_.step;
-        last_skin_ = fluid::skin_of_step(travel, clock_.step, walls_travel(), fluid_.lists.radius);
-        fluid::prune(fluid_.particles, fluid_.lists, last_skin_, parallel_loop);
+        record.step = clock_.step;
+        record.skin = fluid::skin_of_step(travel, clock_.step, walls_travel(), fluid_.lists.radius);
+        fluid::prune(fluid_.particles, fluid_.lists, record.skin, parallel_loop);
     }
 
   private:
@@ -57,17 +58,18 @@ class NeighbourSearchTask {
     // Two particles, or a particle and the mirror image of another, come closer by at most twice the largest
     // displacement of particles plus twice that of walls. The coming step is counted in.
     bool lists_hold(const fluid::Travel& travel) const {
-        if (!built_once_) return false;
+        const std::vector<fluid::Vec<D>>& built = fluid_.record.walls;
+        if (!fluid_.record.made) return false;
         double moved = travel.so_far() + travel.of_step(clock_.step) + interface_travel();
         if (walls_) {
             double wall2 = 0;
-            for (std::size_t k = 0; k < built_.size(); ++k)
-                wall2 = std::max(wall2, (walls_->panels.position[k] - built_[k]).squaredNorm());
+            for (std::size_t k = 0; k < built.size(); ++k)
+                wall2 = std::max(wall2, (walls_->panels.position[k] - built[k]).squaredNorm());
             double wall = std::sqrt(wall2);
             // Where prescribed motions will be during the step is known.
             if (moving_)
                 for (const double fraction : {0.0, 0.5, 1.0})
-                    wall = std::max(wall, moving_->largest_distance(built_, clock_.time + fraction * clock_.step));
+                    wall = std::max(wall, moving_->largest_distance(built, clock_.time + fraction * clock_.step));
             moved += wall;
         }
         return moved < 0.5 * fluid_.lists.skin;
@@ -84,10 +86,10 @@ class NeighbourSearchTask {
             rebuild_lists(fluid_, walls_, parallel_loop);
         else
             rebuild_lists(fluid_, *walls_, parallel_loop);
-        built_once_ = true;
-        if (walls_) built_ = walls_->panels.position;
+        fluid_.record.made = true;
+        if (walls_) fluid_.record.walls = walls_->panels.position;
         if constexpr (D == 2 && ghosts)
-            if (interface_) interface_->load.rebuild(particles, fluid_.lists, *walls_);
+            if (interface_) interface_->rebuild(fluid_, *walls_);
     }
 
     // A particle deeper behind a wall than half a spacing would no longer be mirrored: it has passed through.
@@ -105,9 +107,6 @@ class NeighbourSearchTask {
     coupling::Interface* interface_;
     const Clock& clock_;
     std::vector<fluid::Travel> scratch_;
-    double last_step_ = 0, last_skin_ = 0;
-    bool built_once_ = false;           // by this task: lists from before the run do not say where walls stood
-    std::vector<fluid::Vec<D>> built_;  // vertices of walls when the lists were built
 };
 
 template <int D, class Walls>

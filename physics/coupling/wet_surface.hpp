@@ -27,6 +27,11 @@ class WetSurface {
     // Adds the forces on vertices (one per vertex of `panels`) to nodal forces, interleaved; clears them first.
     void to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) const;
 
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint: the last exchange
+        fields(position_, velocity_);
+    }
+
     int wall() const { return wall_; }
     std::size_t vertices() const { return nodes_.size(); }
     double largest_speed() const;  // of wet nodes [m/s]

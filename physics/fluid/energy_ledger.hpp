@@ -31,6 +31,11 @@ struct EnergyLedger {
     double lost = 0;                // kinetic and potential, of particles taken out or stopped at walls [J]
     std::vector<EnergyRates> part;  // of each block
 
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint
+        fields(sum, last, lost);
+    }
+
     // Adds the rates of a stage, blocks in order, weighted as the integration weighs its stages.
     void accumulate(IntegrationScheme scheme, int stage, double dt);
 };

@@ -8,6 +8,7 @@
 #include "physics/fluid/gradients.hpp"
 #include "physics/fluid/health.hpp"
 #include "physics/fluid/neighbour_search.hpp"
+#include "physics/fluid/search_record.hpp"
 #include "physics/fluid/spatial_order.hpp"
 #include "physics/fluid/time_integration.hpp"
 #include "physics/fluid/viscosity.hpp"
@@ -42,11 +43,18 @@ struct Fluid {
     Reorder<D> reorder;
     FreeSurface<D> surface;  // with shifting
     EnergyLedger ledger;
+    SearchRecord<D> record{};
 
     long rebuilds = 0;          // of the lists
     long outrun = 0;            // steps in which some particle went further than the step's lists allowed for
     std::size_t removed = 0;    // particles that have left an open domain
     std::size_t held_back = 0;  // times that a lone particle was stopped at a wall (walls/ghosts.hpp)
+
+    // For a checkpoint. Lists are made again as they were made (rebuild.hpp).
+    template <class Archive>
+    void archive(Archive& fields) {
+        fields(particles, ledger, record, rebuilds, outrun, removed, held_back);
+    }
 
     // Tells the particles what they carry besides; before they are made.
     void prepare_particles() {

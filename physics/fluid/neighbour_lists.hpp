@@ -31,6 +31,11 @@ struct NeighbourBlock {
 
     void clear();
     void make_room_for(const NeighbourBlock& other);  // as long as the other; the entries are left over
+
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint
+        fields(particle, open, masked, mask, pairs);
+    }
 };
 
 template <int D>

@@ -64,6 +64,13 @@ struct Particles {
     // `count` lanes are kept, those of ghosts are not. Allocates only when a part outgrows what it ever had.
     void resize(std::size_t fluid, std::size_t ghosts);
     std::size_t bytes() const;  // of memory in use
+
+    // For a checkpoint, all lanes. Without gradients: every evaluation makes them anew.
+    template <class Archive>
+    void archive(Archive& fields) {
+        fields(count, ghost_count, ghost_clusters, id, mass, deviation, acceleration, deviation_rate, x_built);
+        fields(x, v, p, impedance, volume, fullness, mass_rate, exchange, shift);
+    }
 };
 
 // Bytes of all these fields.

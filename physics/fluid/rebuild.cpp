@@ -1,5 +1,8 @@
 #include "physics/fluid/rebuild.hpp"
 
+#include <stdexcept>
+#include <utility>
+
 namespace aquagraph::fluid {
 
 namespace {
@@ -18,26 +21,80 @@ void sort(Fluid<D>& fluid, BlockLoop loop) {
     fluid.integration.resize(particles);
 }
 
+// Ghosts and lists of particles that are in order.
+template <int D>
+void make_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop) {
+    Particles<D>& particles = fluid.particles;
+    if (walls) walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), Vec<D>(fluid.flux.gravity));
+    fluid.search.build(particles, fluid.lists, walls ? &walls->visibility : nullptr, loop);
+    if (fluid.transport == Transport::shifting) fluid.surface.resize(particles);
+}
+
+template <int D>
+void make_lists(Fluid<D>& fluid, NormalFluxWalls<D>* walls, BlockLoop loop) {
+    walls->rebuild(fluid.particles, fluid.spacing, fluid.lists.reach(), loop);
+    fluid.search.build(fluid.particles, fluid.lists, &walls->sight, loop);
+}
+
+template <int D, class Walls>
+void remake(Fluid<D>& fluid, Walls* walls, BlockLoop loop, FunctionRef<void()> also) {
+    Particles<D>& particles = fluid.particles;
+    Particles<D> now = particles;
+    particles.resize(now.count, now.ghost_count);  // gradients too
+    for (std::size_t d = 0; d < D; ++d)
+        std::copy(particles.x_built[d].begin(), particles.x_built[d].end(), particles.x[d].begin());
+    std::vector<Vec<D>> vertices;
+    if (walls) {
+        vertices = std::exchange(walls->panels.position, fluid.record.walls);
+        if (walls->panels.position.size() != vertices.size())
+            throw std::runtime_error("the walls had other vertices when the neighbour lists were made");
+    }
+    make_lists(fluid, walls, loop);
+    also();
+    fluid.integration.resize(particles);
+    if (particles.ghost_count != now.ghost_count)
+        throw std::runtime_error("there were " + std::to_string(now.ghost_count) + " ghosts, and now there are " +
+                                 std::to_string(particles.ghost_count));
+    std::swap(now.grad_p, particles.grad_p);
+    std::swap(now.grad_v, particles.grad_v);
+    particles = std::move(now);
+    if (walls) {
+        walls->panels.position = std::move(vertices);
+        walls->update_geometry();
+    }
+}
+
 }  // namespace
 
 template <int D>
 void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop) {
-    Particles<D>& particles = fluid.particles;
-    if (walls && walls->periodic.any()) walls->periodic.wrap(particles);
+    if (walls && walls->periodic.any()) walls->periodic.wrap(fluid.particles);
     sort(fluid, loop);
-    if (walls) walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), Vec<D>(fluid.flux.gravity));
-    fluid.search.build(particles, fluid.lists, walls ? &walls->visibility : nullptr, loop);
-    if (fluid.transport == Transport::shifting) fluid.surface.resize(particles);
+    make_lists(fluid, walls, loop);
     ++fluid.rebuilds;
 }
 
 template <int D>
 void rebuild_lists(Fluid<D>& fluid, NormalFluxWalls<D>& walls, BlockLoop loop) {
     sort(fluid, loop);
-    walls.rebuild(fluid.particles, fluid.spacing, fluid.lists.reach(), loop);
-    fluid.search.build(fluid.particles, fluid.lists, &walls.sight, loop);
+    make_lists(fluid, &walls, loop);
     ++fluid.rebuilds;
 }
+
+template <int D>
+void remake_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop, FunctionRef<void()> also) {
+    remake(fluid, walls, loop, also);
+}
+
+template <int D>
+void remake_lists(Fluid<D>& fluid, NormalFluxWalls<D>& walls, BlockLoop loop, FunctionRef<void()> also) {
+    remake(fluid, &walls, loop, also);
+}
+
+template void remake_lists(Fluid<2>&, GhostWalls<2>*, BlockLoop, FunctionRef<void()>);
+template void remake_lists(Fluid<3>&, GhostWalls<3>*, BlockLoop, FunctionRef<void()>);
+template void remake_lists(Fluid<2>&, NormalFluxWalls<2>&, BlockLoop, FunctionRef<void()>);
+template void remake_lists(Fluid<3>&, NormalFluxWalls<3>&, BlockLoop, FunctionRef<void()>);
 
 template void rebuild_lists(Fluid<2>&, GhostWalls<2>*, BlockLoop);
 template void rebuild_lists(Fluid<3>&, GhostWalls<3>*, BlockLoop);

@@ -15,4 +15,13 @@ void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop);
 template <int D>
 void rebuild_lists(Fluid<D>& fluid, NormalFluxWalls<D>& walls, BlockLoop loop);
 
+// After a checkpoint has been read: makes lists, ghosts and all that goes with them as they were made when particles
+// stood at x_built and the walls' vertices where fluid.record says, calls `also` there, for what others collect from
+// the lists, and takes particles and walls to where they are now. Not a bit differs from what was there when the
+// checkpoint was written. Throws std::runtime_error if there are not as many ghosts as there were.
+template <int D>
+void remake_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop, FunctionRef<void()> also);
+template <int D>
+void remake_lists(Fluid<D>& fluid, NormalFluxWalls<D>& walls, BlockLoop loop, FunctionRef<void()> also);
+
 }  // namespace aquagraph::fluid

@@ -10,18 +10,19 @@ using namespace aquagraph::test;
 
 namespace {
 
-// The gate of `gate`, 1 × 10 quadrilaterals of four nodes, as Gmsh 4.1 writes it.
+// The gate of `gate`, 1 × 10 quadrilaterals of four nodes, as Gmsh 4.1 writes it; the whole of it is called "rubber".
 std::string gate_mesh() {
     constexpr int columns = 1, rows = 10;
     const auto node = [](int i, int j) { return j * (columns + 1) + i + 1; };
     std::ostringstream mesh;
     mesh.precision(17);
     mesh << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
-            "$PhysicalNames\n4\n1 1 \"left\"\n1 2 \"bottom\"\n1 3 \"right\"\n1 4 \"top\"\n$EndPhysicalNames\n"
+            "$PhysicalNames\n5\n2 5 \"rubber\"\n1 1 \"left\"\n1 2 \"bottom\"\n1 3 \"right\"\n1 4 "
+            "\"top\"\n$EndPhysicalNames\n"
             "$Entities\n0 4 1 0\n";
     for (int side = 1; side <= 4; ++side) mesh << side << " 0.1 0 0 0.105 0.079 0 1 " << side << " 0\n";
     const int nodes = (columns + 1) * (rows + 1);
-    mesh << "1 0.1 0 0 0.105 0.079 0 0 4 1 2 3 4\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes << "\n2 1 0 "
+    mesh << "1 0.1 0 0 0.105 0.079 0 1 5 4 1 2 3 4\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes << "\n2 1 0 "
          << nodes << "\n";
     for (int n = 1; n <= nodes; ++n) mesh << n << "\n";
     for (int j = 0; j <= rows; ++j)
@@ -82,4 +83,49 @@ TEST_CASE("a mesh without the wet surface is refused with its place in the scene
     CHECK_THROWS_WITH_AS(engine::run(scene, options, out, err), doctest::Contains("no surface 'lefft'"),
                          io::SceneError);
     CHECK_FALSE(std::filesystem::exists(options.folder));
+}
+
+TEST_CASE("a wet set that is no surface is refused with its place in the scene") {
+    ScratchFolder folder;
+    folder.write("gate.msh", gate_mesh());
+    std::ostringstream out, err;
+    const std::string text = with(with_mesh(), "\"bottom\", \"right\"]", "\"bottom\", \"rubber\"]");
+    const io::Scene scene = io::read_scene(folder.write("scene.toml", text));
+    std::string said;
+    try {
+        engine::make_model<2>(scene);
+    } catch (const io::SceneError& error) {
+        said = error.what();
+    }
+    const std::size_t line = count(text.substr(0, text.find("\"rubber\"")), "\n") + 1;
+    CHECK(said.find("scene.toml:" + std::to_string(line) + ":") != std::string::npos);
+    CHECK(said.find("'rubber' is a set of nodes, and no surface") != std::string::npos);
+    CHECK(said.find("bottom, left, right, top") != std::string::npos);
+}
+
+TEST_CASE("a body that no water can reach is refused with its place in the scene") {
+    ScratchFolder folder;
+    folder.write("gate.msh", gate_mesh());
+    const auto said = [&](const std::string& text) -> std::string {
+        const io::Scene scene = io::read_scene(folder.write("scene.toml", text));
+        try {
+            engine::make_model<2>(scene);
+        } catch (const io::SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::string away =
+        with(gate, "min = [0.1, 0.0]\nmax = [0.105, 0.079]", "min = [0.7, 0.0]\nmax = [0.705, 0.079]");
+    const std::string box = said(away);
+    CHECK(box.find("scene.toml:" + std::to_string(count(away.substr(0, away.find("[solid.box]")), "\n") + 1) + ":") !=
+          std::string::npos);
+    CHECK(box.find("no water will ever reach them") != std::string::npos);
+    CHECK(box.find("enlarge [domain]") != std::string::npos);
+    // The gate of the mesh, and a domain that ends before it.
+    const std::string narrow =
+        with(with(with_mesh(), "max = [0.5, 0.3]", "max = [0.07, 0.3]"), "max = [0.1, 0.14]", "max = [0.06, 0.14]");
+    CHECK(said(narrow).find("no water will ever reach them") != std::string::npos);
+    // Near enough to be reached, it is taken.
+    CHECK(said(with(gate, "max = [0.5, 0.3]", "max = [0.101, 0.3]")) == "");
 }

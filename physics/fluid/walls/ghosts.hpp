@@ -37,6 +37,12 @@ class GhostWalls {
     // Throws std::invalid_argument if a period is shorter than the reach.
     void rebuild(Particles<D>& particles, double spacing, double reach, const Vec<D>& gravity);
 
+    // For a checkpoint. Everything else is made by rebuild() and update_geometry().
+    template <class Archive>
+    void archive(Archive& fields) {
+        fields(panels.position, panels.velocity, grid);
+    }
+
     // Panel geometry and corners after the vertices have moved.
     void update_geometry();
 

@@ -75,6 +75,11 @@ class NormalFluxWalls {
     // Cuts the panels, decides which particles see which points within `reach`, and takes all ghosts away. Particles up
     // to half a spacing behind a panel still count as in front of it.
     void rebuild(Particles<D>& particles, double spacing, double reach, BlockLoop loop);
+    // For a checkpoint. Everything else is made by rebuild() and update_geometry().
+    template <class Archive>
+    void archive(Archive& fields) {
+        fields(panels.position, panels.velocity, floor_count);
+    }
     // Panels and points after the vertices have moved.
     void update_geometry();
 

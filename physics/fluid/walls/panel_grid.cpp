@@ -219,8 +219,11 @@ bool PanelGrid<D>::build(const Panels<D>& panels, const std::vector<int>& patch,
             high = high.cwiseMax(panels.vertex(k, v));
         }
     if (D == 3) {  // with room to move before the next build
-        covered_low_ = water_low - Vec<D>::Constant(4 * reach);
-        covered_high_ = water_high + Vec<D>::Constant(4 * reach);
+        if (!covered_is_given_) {
+            covered_low_ = water_low - Vec<D>::Constant(4 * reach);
+            covered_high_ = water_high + Vec<D>::Constant(4 * reach);
+        }
+        covered_is_given_ = false;
         low = low.cwiseMax(covered_low_);
         high = high.cwiseMin(covered_high_);
         if ((low.array() > high.array() + 4 * reach).any()) return true;  // no wall near the water

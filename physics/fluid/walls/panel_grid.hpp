@@ -34,6 +34,12 @@ class PanelGrid {
     // Returns whether anything was.
     bool build(const Panels<D>& panels, const std::vector<int>& patch, double reach, const Periodic<D>& periodic,
                const Particles<D>& particles);
+    // What a build has found out and later ones keep, for a checkpoint: once read, the next build takes it over.
+    template <class Archive>
+    void archive(Archive& fields) {
+        fields(covered_low_, covered_high_);
+        covered_is_given_ = fields.reads();
+    }
     // True if the panels stand where they were registered.
     bool knows(const Panels<D>& panels) const { return position_ == panels.position; }
     // Registers corners, once a build has been made.
@@ -85,6 +91,7 @@ class PanelGrid {
     std::vector<double> radius_;                                           // around each panel's centroid
     std::vector<Vec<D>> position_;                                         // of the panels' vertices, as registered
     Vec<D> covered_low_ = Vec<D>::Zero(), covered_high_ = Vec<D>::Zero();  // particles may be here
+    bool covered_is_given_ = false;                                        // by archive()
 };
 
 extern template class PanelGrid<2>;

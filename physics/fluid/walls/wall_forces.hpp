@@ -22,6 +22,13 @@ class WallForces {
     // Collects the pairs of the present neighbour lists. Does nothing if they are those of the last call.
     void rebuild(const Fluid<D>& fluid, const GhostWalls<D>& walls);
 
+    // For a checkpoint: the pairs were collected at a time of their own.
+    template <class Archive>
+    void archive(Archive& fields) {
+        fields(rebuilt_for_, lists_.radius, lists_.skin, lists_.blocks, clusters_, gradient_clusters_);
+        if (fields.reads()) part_.assign(blocks(), Vec<D>::Zero());
+    }
+
     // Clusters of fluid particles whose gradients the force reads (their own, and those of the ghosts' parents).
     const std::vector<std::uint32_t>& gradient_clusters() const { return gradient_clusters_; }
     std::size_t blocks() const { return (clusters_.size() + clusters_per_part - 1) / clusters_per_part; }
@@ -56,6 +63,11 @@ struct WallWork {
     std::string name;
     WallForces<D> pairs;
     EnergyLedger ledger;
+
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint
+        fields(pairs, ledger);
+    }
 };
 
 }  // namespace aquagraph::fluid
