@@ -61,6 +61,7 @@ bool Solver<D>::Implementation::factorise_dynamic(const std::vector<double>& at,
     assembly.system_matrix(at, newmark.weight_new * newmark.beta * dt * dt, 1, cholesky.values(), loop);
     ++statistics.matrices;
     factor = {true, dt, 0, 0, 0};
+    factored_at = at;
     by_gradients = gradients_are_cheaper(dt);
     if (by_gradients) return true;
     return factor.valid = factorise();

@@ -185,9 +185,8 @@ void Solver<D>::element_stress(std::span<double> von_mises) const {
 }
 
 template <int D>
-void Solver<D>::save(State& state) {
-    Implementation& self = *implementation_;
-    self.factor = {};
+void Solver<D>::save(State& state) const {
+    const Implementation& self = *implementation_;
     state.displacements = self.u;
     state.velocities = self.v;
     state.accelerations = self.a;
@@ -195,6 +194,13 @@ void Solver<D>::save(State& state) {
     state.accelerations_known = self.accelerations_known;
     state.external_work = self.external_work;
     state.statistics = self.statistics;
+    state.factor_valid = self.factor.valid;
+    state.by_gradients = self.by_gradients;
+    state.factor_time_step = self.factor.time_step;
+    state.factor_steps = self.factor.steps;
+    state.factor_iterations_when_new = self.factor.iterations_when_new;
+    state.factor_excess = self.factor.excess;
+    state.factor_displacements = self.factored_at;
 }
 
 template <int D>
@@ -210,8 +216,20 @@ void Solver<D>::restore(const State& state) {
     self.assembly.internal_forces(self.u, self.internal, serial_loop);  // the same bits as when u was accepted
     self.accelerations_known = state.accelerations_known;
     self.external_work = state.external_work;
+    if (state.factor_valid) {
+        require(state.factor_displacements.size() == self.u.size(),
+                "the saved factorisation is of another number of nodes");
+        const bool in_use = self.factor.valid && self.factor.time_step == state.factor_time_step &&
+                            self.factored_at == state.factor_displacements;
+        if (!in_use) self.factorise_dynamic(state.factor_displacements, state.factor_time_step, serial_loop);
+        if (self.by_gradients && !state.by_gradients) self.cholesky.factorise();  // gradients had failed on this matrix
+        self.by_gradients = state.by_gradients;
+        self.factor = {self.factor.valid, state.factor_time_step, state.factor_steps, state.factor_iterations_when_new,
+                       state.factor_excess};
+    } else {
+        self.factor = {};
+    }
     self.statistics = state.statistics;
-    self.factor = {};
     self.update_positions();
 }
 

@@ -46,6 +46,11 @@ struct Statistics {
     long gradient_iterations = 0;  // of conjugate gradients, all together
     int last_iterations = 0;       // of the last step
     double last_residual = 0;      // |r| / reference at the end of the last step
+
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint
+        fields(steps, newton_iterations, factorisations, matrices, gradient_iterations, last_iterations, last_residual);
+    }
 };
 
 // Everything that the next step depends on, to write to a checkpoint.
@@ -55,6 +60,20 @@ struct State {
     bool accelerations_known = false;
     double external_work = 0;
     Statistics statistics;
+    // The factorisation in use (or the matrix, for conjugate gradients), by where it was made and how it has done
+    // since: that decides when it is renewed.
+    bool factor_valid = false, by_gradients = false;
+    double factor_time_step = 0;  // [s]
+    int factor_steps = 0, factor_iterations_when_new = 0, factor_excess = 0;
+    std::vector<double> factor_displacements;
+
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint
+        fields(displacements, velocities, accelerations, external_forces, accelerations_known, external_work,
+               statistics);
+        fields(factor_valid, by_gradients, factor_time_step, factor_steps, factor_iterations_when_new, factor_excess,
+               factor_displacements);
+    }
 };
 
 template <int D>
@@ -94,8 +113,9 @@ class Solver {
     void element_stress(std::span<double> von_mises) const;
 
     // What save() writes, restore() of a solver built from the same mesh and options reads; both continue with the same
-    // bits. To that end save() drops the present factorisation as restore() does: both factorise in their next step.
-    void save(State& state);
+    // bits, and so does a solver that is never saved: restore() makes the saved factorisation again, where it was made,
+    // unless it is the one in use.
+    void save(State& state) const;
     void restore(const State& state);  // throws std::invalid_argument for sizes that do not fit
 
   private:

@@ -84,7 +84,8 @@ struct Solver<D>::Implementation {
     bool accelerations_known = false;
     double external_work = 0;
     FactorPolicy factor;
-    bool by_gradients = false;  // the matrix in `cholesky` has not been factorised
+    std::vector<double> factored_at;  // displacements that the matrix of the last step was made for
+    bool by_gradients = false;        // the matrix in `cholesky` has not been factorised
     Statistics statistics;
 };
 
