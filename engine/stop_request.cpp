@@ -1,6 +1,7 @@
 #include "engine/stop_request.hpp"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace aquagraph::engine {
 
@@ -9,7 +10,8 @@ volatile std::sig_atomic_t interrupt_requested = 0, checkpoint_requested = 0;
 }  // namespace
 
 StopSignals::StopSignals() {
-    interrupt_requested = checkpoint_requested = 0;
+    interrupt_requested = 0;
+    checkpoint_requested = 0;
     for (const int signal : {SIGINT, SIGTERM})
         std::signal(signal, [](int number) {
             interrupt_requested = 1;

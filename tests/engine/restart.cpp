@@ -15,14 +15,20 @@ template <int D>
 void check_restarts(const std::string& text, unsigned seed, int restarts = 2) {
     const ScratchFolder folder;
     const auto scene = folder.write("scene.toml", text);
-    Session<D> whole(scene, folder / "whole", 2);
-    whole.run();
-    REQUIRE(whole.cycles >= 4);
-    const std::string state = whole.state(), results = results_of({folder / "whole"});
+    std::string state;
+    long cycles = 0;
+    {  // in a block: the fewest threads of those alive at the same time count
+        Session<D> whole(scene, folder / "whole", 2);
+        whole.run();
+        state = whole.state();
+        cycles = whole.cycles;
+    }
+    const std::string results = results_of({folder / "whole"});
+    REQUIRE(cycles >= 4);
 
     std::mt19937 random(seed);
     for (int k = 0; k < restarts; ++k) {
-        const long at = std::uniform_int_distribution<long>(1, whole.cycles - 1)(random);
+        const long at = std::uniform_int_distribution<long>(1, cycles - 1)(random);
         CAPTURE(at);
         const auto parts = folder / "parts";
         std::filesystem::remove_all(parts);
@@ -40,7 +46,7 @@ void check_restarts(const std::string& text, unsigned seed, int restarts = 2) {
         REQUIRE(from);
         Session<D> second(scene, parts, 3, from);
         second.run();
-        CHECK(second.cycles == whole.cycles - at);
+        CHECK(second.cycles == cycles - at);
         CHECK(second.state() == state);
         CHECK(results_of({parts}) == results);
     }
@@ -76,6 +82,7 @@ force = true
 motion = { translation = { velocity = [0.8, 0], ramp = 0.01 } }
 [[probe]]
 name = "foot"
+quantity = "pressure"
 point = [0, 0.05]
 wall = "piston"
 [output]
@@ -210,21 +217,26 @@ TEST_CASE("water in space goes on with the same bits") {
 TEST_CASE("restarts may follow each other") {
     const ScratchFolder folder;
     const auto scene = folder.write("scene.toml", every_cycle(with_coupling(gate, "cps", 3)));
-    Session<2> whole(scene, folder / "whole", 2);
-    whole.run();
+    std::string state;
+    long all = 0, cycles = 0;
+    {
+        Session<2> whole(scene, folder / "whole", 2);
+        whole.run();
+        state = whole.state();
+        all = whole.cycles;
+    }
     std::ostringstream said;
     std::optional<engine::RestartPoint> from;
-    long cycles = 0;
     for (int part = 0; part < 6; ++part) {
         Session<2> session(scene, folder / "parts", 1 + part % 2, from);
-        session.run(part == 5 ? whole.cycles : 3 + part);
+        session.run(part == 5 ? all : 3 + part);
         cycles += session.cycles;
         session.checkpoints.write({});
         from = engine::find_restart_point(session.scene, folder / "parts", "auto", said);
         REQUIRE(from);
         CHECK(from->steps == session.model->clock.steps);
-        if (part == 5) CHECK(session.state() == whole.state());
+        if (part == 5) CHECK(session.state() == state);
     }
-    CHECK(cycles == whole.cycles);
+    CHECK(cycles == all);
     CHECK(results_of({folder / "parts"}) == results_of({folder / "whole"}));
 }
