@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "engine/body_parts.hpp"
 #include "engine/listings.hpp"
 #include "io/scheme_text.hpp"
 #include "physics/fluid/gradients.hpp"
@@ -61,10 +62,52 @@ void print_filling(std::ostream& out, const FilledBody& body) {
 }
 
 template <int D>
+void print_solid(std::ostream& out, const io::Scene& scene, const solid::Mesh<D>& mesh) {
+    const std::size_t nodes = mesh.elements.front().size();
+    out << fmt::format("solid      {} {} of {} nodes, {} nodes, ", mesh.elements.size(),
+                       D == 2        ? "quadrilaterals"
+                       : nodes == 10 ? "tetrahedra"
+                                     : "hexahedra",
+                       nodes, mesh.nodes.size());
+    if (scene.solid->is_static)
+        out << "static\n";
+    else
+        out << fmt::format("{} with αs = {:g}\n", scene.solid->scheme == solid::Scheme::hht ? "HHT" : "Newmark",
+                           scene.solid->alpha);
+}
+
+// Of a body alone: one step is made to see how long it takes.
+template <int D>
+void check_structure(const io::Scene& scene, Model<D>& model, tasks::Executor& executor, std::ostream& out) {
+    print_solid(out, scene, model.solid->mesh());
+    const double steps = std::ceil(scene.end_time / model.structure->step * (1 - 1e-9));
+    out << fmt::format("loads      {} besides gravity\ntime       {:g} s in {:.0f} steps of {:.3g} s\n",
+                       model.structure->loads.size(), scene.end_time, steps, scene.end_time / steps);
+    double seconds = 0;
+    try {
+        executor.execute([&] {
+            const auto step = structural_step(model);
+            for (int k = 0; k < 2; ++k) {  // the first one also finds the initial acceleration
+                const auto begin = std::chrono::steady_clock::now();
+                for (const tasks::Task& task : step) task.body();
+                seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+                if (model.clock.time >= model.clock.end) break;
+            }
+        });
+    } catch (const solid::ConvergenceError& error) {
+        out << "run time   unknown: " << error.what() << "\n";
+        return;
+    }
+    out << fmt::format("run time   about {} on {} threads of this machine, without what is written\n",
+                       duration(steps * seconds), executor.threads());
+}
+
+template <int D>
 void check_in(const io::Scene& scene, int threads, std::ostream& out) {
     tasks::Executor executor(threads);
     const std::unique_ptr<Model<D>> model = make_model<D>(scene);
     out << scene.title << "\n";
+    if (model->structure) check_structure(scene, *model, executor, out);
     if (model->fluid) {
         fluid::Fluid<D>& fluid = *model->fluid;
         executor.execute([&] {
@@ -93,12 +136,7 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
         if (model->walls)
             out << fmt::format("walls      ghost particles: {} panels, {} ghosts\n", model->walls->panels.panels.size(),
                                model->walls->ghosts.size());
-        if (model->solid) {
-            const auto& mesh = model->solid->mesh();
-            out << fmt::format("solid      {} eight-node quadrilaterals, {} nodes, {} with αs = {:g}\n",
-                               mesh.elements.size(), mesh.nodes.size(),
-                               scene.solid->scheme == io::SolidScheme::hht ? "HHT" : "Newmark", scene.solid->alpha);
-        }
+        if (model->solid) print_solid(out, scene, model->solid->mesh());
         if (model->interface)
             out << fmt::format("coupling   {}, p = {}, force-conservative load on {} nodes\n",
                                cps ? "CPS (fluid and solid side by side)" : "CSS (solid after fluid)",

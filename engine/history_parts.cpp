@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "engine/body_parts.hpp"
 #include "engine/field_columns.hpp"
-#include "engine/solid_parts.hpp"
 
 namespace aquagraph::engine {
 
@@ -23,7 +23,7 @@ HistoryPart tracks(const io::Scene& scene, const solid::Solver<D>& solid) {
     std::vector<std::size_t> nodes;
     for (const io::Track& track : scene.solid->tracks) {
         nodes.push_back(nearest_node(solid.mesh(), track.point));
-        for (const char* axis : {"_x", "_y"}) part.columns.push_back({track.name + axis, "m"});
+        for (std::size_t d = 0; d < D; ++d) part.columns.push_back({track.name + "_" + "xyz"[d], "m"});
     }
     part.append = [&solid, nodes](std::vector<double>& row) {
         for (const std::size_t node : nodes)
@@ -86,7 +86,8 @@ HistoryPart energy_balance(const Model<D>& model) {
 
 template <int D>
 HistoryPart solid_energies(const solid::Solver<D>& solid) {
-    return {{{"solid_kinetic_energy", "J/m"}, {"solid_strain_energy", "J/m"}, {"solid_external_work", "J/m"}},
+    const std::string unit = per_depth<D>("J");
+    return {{{"solid_kinetic_energy", unit}, {"solid_strain_energy", unit}, {"solid_external_work", unit}},
             [&solid](std::vector<double>& row) {
                 const solid::Energies energies = solid.energies();
                 row.insert(row.end(), {energies.kinetic, energies.strain, energies.external_work});

@@ -17,8 +17,11 @@
 //                                              it runs beside the fluid. CSS reads the loads just computed: one edge
 //                                              more, and it waits for the fluid.
 //   exchange
+//
+// A body without water has a step of its own: structural_step() in engine/body_parts.hpp.
 #include "engine/listings.hpp"
 
+#include "engine/body_parts.hpp"
 #include "tasks/body_force.hpp"
 #include "tasks/fluid_pass.hpp"
 #include "tasks/flux_walls.hpp"
@@ -156,6 +159,7 @@ class Listing {
 
 template <int D>
 std::vector<Task> coupling_cycle(Model<D>& model, const io::CouplingScene& coupling) {
+    if (model.structure) return structural_step(model);
     Listing<D> listing(model);
     const bool coupled = model.interface.has_value();
     const bool cps = coupled && coupling.algorithm == io::CouplingAlgorithm::cps;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/body_parts.hpp"
 #include "engine/initial_fields.hpp"
 #include "engine/solid_parts.hpp"
 #include "engine/wall_parts.hpp"
-#include "io/scene_reader.hpp"
 
 namespace aquagraph::engine {
 
@@ -75,11 +75,12 @@ void settle(const io::Scene& scene, fluid::Panels<D>& panels, const fluid::Movin
 
 template <int D>
 std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
-    if (!scene.fluid)  // nothing would set the time step
-        throw io::scene_error(scene, "solid", "there is no water in this scene, and a solid alone cannot be run yet",
-                              "add [fluid]");
     auto model = std::make_unique<Model<D>>();
     model->clock.end = scene.end_time;
+    if (!scene.fluid) {
+        make_structure(scene, *model);
+        return model;
+    }
     model->fluid = make_fluid<D>(scene);
     model->water = fill_with_water<D>(scene, model->fluid->tait, model->fluid->particles);
     set_initial_fields(*model->fluid, scene);
@@ -103,7 +104,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     }
     if constexpr (D == 2) {
         if (scene.solid) {
-            model->solid = make_solid(scene);
+            model->solid = make_solid<2>(scene);
             model->interface = make_interface(scene, *model);
         }
     }
@@ -113,6 +114,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
 
 template <int D>
 void start(Model<D>& model, const io::Scene& scene) {
+    if (model.structure) return static_start(scene, model);
     if constexpr (D == 2)
         if (model.solid) start_solid(model, scene);
 }

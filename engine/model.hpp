@@ -14,11 +14,20 @@
 #include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
 #include "physics/fluid/walls/wall_forces.hpp"
+#include "physics/solid/dead_loads.hpp"
 #include "physics/solid/solver.hpp"
 
 namespace aquagraph::engine {
 
-// Solids, and with them the interface, are two-dimensional so far.
+// What a body without water bears, and how it goes on.
+struct Structure {
+    double step = 0;  // [s], the longest
+    bool is_static = false;
+    std::vector<solid::DeadLoad> loads;
+    std::vector<double> forces;  // their sum at the end of the step, D × nodes [N]
+};
+
+// The interface between fluid and solid is two-dimensional so far.
 template <int D>
 struct Model {
     std::optional<fluid::Fluid<D>> fluid;
@@ -30,6 +39,7 @@ struct Model {
     fluid::MovingWalls<D> moving;                         // those with a prescribed motion
     std::vector<fluid::WallWork<D>> wall_works;           // of walls whose force is asked for, where energies are kept
     std::optional<solid::Solver<D>> solid;
+    std::optional<Structure> structure;  // where there is no fluid
     std::optional<coupling::Interface> interface;
     Clock clock;
 };

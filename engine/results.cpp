@@ -68,6 +68,22 @@ double next_due(double t, double interval) {
     return (std::floor(t / interval * (1 + 1e-12)) + 1) * interval;
 }
 
+// Where the corners of the body's facets are now; of very many facets only some.
+std::vector<std::vector<io::Point>> surface_facets(const solid::Solver<3>& solid,
+                                                   const std::vector<solid::Facet>& boundary) {
+    constexpr std::size_t most = 1500;
+    const auto x = solid.positions();
+    std::vector<std::vector<io::Point>> facets;
+    for (std::size_t f = 0; f < boundary.size(); f += boundary.size() / most + 1) {
+        auto& corners = facets.emplace_back();
+        for (std::size_t k = 0; k < solid::corner_count<3>(boundary[f]); ++k) {
+            const std::size_t node = 3 * std::size_t(boundary[f][k]);
+            corners.emplace_back(x[node], x[node + 1], x[node + 2]);
+        }
+    }
+    return facets;
+}
+
 }  // namespace
 
 // The columns are made before anything is computed or written, so that a comparison with one that is not there ends at
@@ -84,8 +100,8 @@ Results<D>::Results(const io::Scene& scene, Model<D>& model, std::filesystem::pa
       fluid_series_((std::filesystem::create_directories(folder_), folder_ / "fluid.hdf.series")),
       solid_series_(folder_ / "solid.hdf.series"),
       flow_(scene.fluid ? scene.fluid->spacing : 1.0) {
-    if constexpr (D == 2)
-        if (model.solid) boundary_ = solid::chain(solid::boundary_facets(model.solid->mesh()));
+    if (model.solid) boundary_ = solid::boundary_facets(model.solid->mesh());
+    if (D == 2 && model.solid) boundary_ = solid::chain(boundary_);
     if (resumed) return;
     remove_old_results(folder_);
     history_ = std::make_unique<io::HistoryWriter>(folder_ / "history.csv", columns_);
@@ -223,7 +239,9 @@ void Results<D>::record_flow() {
         }
         frame.speed = speed;
     }
-    if (model_.solid) {
+    if constexpr (D == 3)
+        if (model_.solid) frame.walls = surface_facets(*model_.solid, boundary_);
+    if (D == 2 && model_.solid) {
         const auto x = model_.solid->positions();
         std::vector<io::Point> outline;
         for (const solid::Facet& edge : boundary_)

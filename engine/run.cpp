@@ -33,7 +33,7 @@ std::string pass_name(const std::string& task) {
 }
 
 std::string family_of(const std::string& pass) {
-    if (pass == "FE Newton solve") return "solid";
+    if (pass == "FE Newton solve" || pass == "FE equilibrium") return "solid";
     if (pass == "exchange" || pass == "interface loads" || pass == "wall motion") return "coupling";
     if (pass == "history" || pass == "frames" || pass == "probes" || pass == "wall forces") return "output";
     return "fluid";
@@ -169,11 +169,14 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
         } catch (const tasks::SickParticle& sick) {
             message = describe(*model, sick);
         } catch (const solid::ConvergenceError&) {
-            message = fmt::format(
-                "{} (t = {:.6g} s, step {})\n  likely cause: the coupling is unstable, the load grows from "
-                "step to step: make αs more negative, or lower cfl or ratio; a light body in water "
-                "needs ρ0 c0 Δt of a cycle well below its mass per area",
-                error.what(), clock.time, clock.steps);
+            if (model->structure)
+                message = fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps + 1);
+            else
+                message = fmt::format(
+                    "{} (t = {:.6g} s, step {})\n  likely cause: the coupling is unstable, the load grows from "
+                    "step to step: make αs more negative, or lower cfl or ratio; a light body in water "
+                    "needs ρ0 c0 Δt of a cycle well below its mass per area",
+                    error.what(), clock.time, clock.steps);
         } catch (...) {
             message = fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps);
         }

@@ -1,11 +1,8 @@
 #include "engine/solid_parts.hpp"
 
-#include <fstream>
-#include <limits>
-
+#include "engine/body_parts.hpp"
 #include "io/scene_reader.hpp"
 #include "physics/fluid/rebuild.hpp"
-#include "physics/solid/gmsh_mesh.hpp"
 #include "tasks/parallel_loop.hpp"
 #include "tasks/solid_step.hpp"
 #include "tasks/walls.hpp"
@@ -13,21 +10,6 @@
 namespace aquagraph::engine {
 
 namespace {
-
-solid::Mesh<2> make_mesh(const io::Scene& scene) {
-    const io::SolidScene& from = *scene.solid;
-    if (from.box)
-        return solid::box_mesh(from.box->min.as<2>(), from.box->max.as<2>(), from.elements[0], from.elements[1]);
-    std::ifstream file(from.mesh);
-    if (!file)
-        throw io::scene_error(scene, "solid.mesh", "the mesh file " + from.mesh.string() + " cannot be opened",
-                              "give the path of a Gmsh 4.1 file, relative to the scene");
-    try {
-        return solid::read_gmsh(file, from.mesh.string());
-    } catch (const solid::MeshError& error) {
-        throw io::scene_error(scene, "solid.mesh", error.what(), "mend the mesh, or mesh a box with [solid.box]");
-    }
-}
 
 // Even–odd rule on the boundary of the mesh.
 bool inside(const solid::Mesh<2>& mesh, const std::vector<solid::Facet>& boundary, double x, double y) {
@@ -100,27 +82,6 @@ void refuse_out_of_reach(const io::Scene& scene, const Model<2>& model) {
 
 }  // namespace
 
-solid::Solver<2> make_solid(const io::Scene& scene) {
-    const io::SolidScene& from = *scene.solid;
-    solid::Options<2> options;
-    options.material.law = from.law == io::MaterialLaw::neo_hookean ? solid::MaterialLaw::neo_hookean
-                                                                    : solid::MaterialLaw::saint_venant_kirchhoff;
-    options.plane =
-        from.plane == io::PlaneCondition::stress ? solid::PlaneCondition::stress : solid::PlaneCondition::strain;
-    options.material.youngs_modulus = from.youngs_modulus;
-    options.material.poissons_ratio = from.poissons_ratio;
-    options.material.density = from.density;
-    options.gravity = scene.gravity.as<2>();
-    options.scheme = from.scheme == io::SolidScheme::newmark ? solid::Scheme::newmark : solid::Scheme::hht;
-    options.alpha = from.alpha;
-    for (const io::Clamp& clamp : from.clamps) options.clamps.push_back({clamp.set, clamp.fixed});
-    try {
-        return solid::Solver<2>(make_mesh(scene), options);
-    } catch (const std::invalid_argument& error) {
-        throw io::scene_error(scene, "solid", error.what(), "see [solid] in SCENES.md");
-    }
-}
-
 coupling::Interface make_interface(const io::Scene& scene, Model<2>& model) {
     refuse_water_inside(scene, model);
     refuse_wet_nodes(scene, model.solid->mesh());
@@ -138,10 +99,7 @@ coupling::Interface make_interface(const io::Scene& scene, Model<2>& model) {
 }
 
 void start_solid(Model<2>& model, const io::Scene& scene) {
-    if (scene.solid->static_start) {
-        const std::vector<double> no_loads(2 * model.solid->mesh().nodes.size(), 0.0);
-        model.solid->solve_static(no_loads, tasks::parallel_loop);
-    }
+    static_start(scene, model);
     if (!model.interface) return;
 
     // The water's load on the solid at t = 0, which the first solve of CPS reads.
@@ -158,23 +116,5 @@ void start_solid(Model<2>& model, const io::Scene& scene) {
         task.body();
     interface.solid_loads = interface.fluid_loads;
 }
-
-template <int D>
-std::size_t nearest_node(const solid::Mesh<D>& mesh, const io::Point& point) {
-    std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::max();
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-        double distance2 = 0;
-        for (std::size_t d = 0; d < D; ++d) distance2 += (mesh.nodes[n][d] - point[d]) * (mesh.nodes[n][d] - point[d]);
-        if (distance2 < least) {
-            least = distance2;
-            nearest = n;
-        }
-    }
-    return nearest;
-}
-
-template std::size_t nearest_node(const solid::Mesh<2>&, const io::Point&);
-template std::size_t nearest_node(const solid::Mesh<3>&, const io::Point&);
 
 }  // namespace aquagraph::engine

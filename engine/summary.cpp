@@ -84,7 +84,7 @@ io::Report report_of(const Model<D>& model, const RunEnd& end) {
     report.wall_seconds = end.figures.wall_seconds;
     report.key_numbers = {{"Wall-clock time", fmt::format("{:.4g}", end.figures.wall_seconds), "s",
                            fmt::format("on {} threads", end.figures.threads)},
-                          {"Fluid steps", std::to_string(model.clock.steps), "", ""}};
+                          {model.fluid ? "Fluid steps" : "Steps", std::to_string(model.clock.steps), "", ""}};
     if (model.fluid)
         report.key_numbers.push_back(
             {"Particles", std::to_string(model.fluid->particles.count), "",

@@ -78,7 +78,7 @@ void write_report(const std::filesystem::path& file, const Scene& scene, const R
                         html_escaped(scene.title), html_escaped(scene.name), seconds(report.reached_time));
     page += banner(scene, report);
     page += key_number_cards(report, comparisons);
-    page += section("Flow", player_html(flow_data));
+    page += section(scene.fluid ? "Flow" : "Motion", player_html(flow_data));
     page += section("Against the references", (compared ? "<div class=\"plots\" id=\"compared-plots\"></div>\n" : "") +
                                                   comparison_table(comparisons));
     page += section("History", others ? "<div class=\"plots\" id=\"other-plots\"></div>\n" : "");

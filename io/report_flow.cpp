@@ -47,6 +47,9 @@ Box view_of(const Scene& scene, const FlowRecord& flow) {
         }
         for (const auto& outline : frame.outlines)
             for (const Point& p : outline) include({p[0], p[1]});
+        if (!scene.fluid)  // a body in space
+            for (const auto& facet : frame.walls)
+                for (const Point& p : facet) include({p[0], p[1], p[2]});
     }
     double longest = 0;
     for (std::size_t d = 0; d < dimension; ++d) {

@@ -43,25 +43,76 @@ std::string fluid_table(const FluidScene& fluid) {
     return table("Fluid (SPH)", rows);
 }
 
-std::string solid_table(const SolidScene& solid) {
+const char* law_text(solid::MaterialLaw law) {
+    switch (law) {
+        case solid::MaterialLaw::linear:
+            return "linear, small displacements";
+        case solid::MaterialLaw::neo_hookean:
+            return "neo-Hookean";
+        case solid::MaterialLaw::mooney_rivlin:
+            return "Mooney–Rivlin";
+        case solid::MaterialLaw::uniaxial_curve:
+            return "measured uniaxial curve";
+        case solid::MaterialLaw::saint_venant_kirchhoff:
+            break;
+    }
+    return "Saint-Venant–Kirchhoff";
+}
+
+void material_rows(std::vector<Row>& rows, const solid::Material& material, const std::string& where) {
+    rows.emplace_back("law" + where, law_text(material.law));
+    rows.emplace_back("density ρ" + where, fmt::format("{:g} kg/m³", material.density));
+    if (material.law == solid::MaterialLaw::mooney_rivlin) {
+        rows.emplace_back("C10, C01" + where,
+                          fmt::format("{}, {}", quantity(material.c10, "Pa"), quantity(material.c01, "Pa")));
+        rows.emplace_back("bulk modulus κ" + where, quantity(material.bulk_modulus, "Pa"));
+        return;
+    }
+    rows.emplace_back("Young's modulus E" + where, quantity(material.youngs_modulus, "Pa"));
+    rows.emplace_back("Poisson's ratio ν" + where, fmt::format("{:g}", material.poissons_ratio));
+}
+
+std::string factor_text(const LoadHistory& factor) {
+    if (!factor.table.empty()) return " × " + factor.table.filename().string();
+    return factor.formula.empty() ? "" : " × " + factor.formula;
+}
+
+std::string solid_table(const SolidScene& solid, int dimension) {
     std::vector<Row> rows{{"name", solid.name}};
     if (solid.box) {
         rows.emplace_back("body", box(*solid.box));
-        rows.emplace_back("elements", fmt::format("{} × {}, eight nodes each", solid.elements[0], solid.elements[1]));
+        const int nodes = dimension == 2 ? 4 * solid.element_order : solid.element_order == 1 ? 8 : 20;
+        rows.emplace_back(
+            "elements",
+            fmt::format("{}, {} nodes each",
+                        fmt::join(solid.elements.begin(), solid.elements.begin() + dimension, " × "), nodes));
     } else {
         rows.emplace_back("mesh", solid.mesh.filename().string());
     }
-    rows.emplace_back("law", solid.law == MaterialLaw::neo_hookean ? "neo-Hookean" : "Saint-Venant–Kirchhoff");
-    rows.emplace_back("plane", solid.plane == PlaneCondition::strain ? "strain" : "stress");
-    rows.emplace_back("density ρ", fmt::format("{:g} kg/m³", solid.density));
-    rows.emplace_back("Young's modulus E", quantity(solid.youngs_modulus, "Pa"));
-    rows.emplace_back("Poisson's ratio ν", fmt::format("{:g}", solid.poissons_ratio));
-    rows.emplace_back("time scheme",
-                      fmt::format("{}, αs = {:g}", solid.scheme == SolidScheme::hht ? "HHT" : "Newmark", solid.alpha));
-    if (solid.static_start) rows.emplace_back("start", "equilibrium under its own weight");
-    for (const Clamp& clamp : solid.clamps)
-        rows.emplace_back("clamped",
-                          fmt::format("{} ({}{})", clamp.set, clamp.fixed[0] ? "x" : "", clamp.fixed[1] ? "y" : ""));
+    if (dimension == 2) rows.emplace_back("plane", std::string(word(plane_words, solid.plane)));
+    material_rows(rows, solid.material, "");
+    for (const solid::Part& part : solid.parts) material_rows(rows, part.material, " of " + part.set);
+    if (solid.is_static)
+        rows.emplace_back("time scheme", "static: an equilibrium at the end of every step");
+    else
+        rows.emplace_back(
+            "time scheme",
+            fmt::format("{}, αs = {:g}", solid.scheme == solid::Scheme::hht ? "HHT" : "Newmark", solid.alpha));
+    if (solid.step > 0) rows.emplace_back("step", quantity(solid.step, "s"));
+    if (solid.static_start) rows.emplace_back("start", "equilibrium under its own weight and loads");
+    for (const Clamp& clamp : solid.clamps) {
+        std::string directions;
+        for (std::size_t d = 0; d < 3; ++d)
+            if (clamp.fixed[d]) directions += "xyz"[d];
+        rows.emplace_back("clamped", fmt::format("{} ({})", clamp.set, directions));
+    }
+    for (const TractionScene& traction : solid.tractions)
+        rows.emplace_back("traction", fmt::format("{} N/m² on {}{}", point(traction.value), traction.surface,
+                                                  factor_text(traction.factor)));
+    for (const ForceScene& force : solid.forces)
+        rows.emplace_back("force", fmt::format("{} N {}{}", point(force.value),
+                                               force.point ? "at " + point(*force.point) + " m" : "on " + force.set,
+                                               factor_text(force.factor)));
     if (!solid.wet.empty()) rows.emplace_back("wet", fmt::format("{}", fmt::join(solid.wet, ", ")));
     for (const Track& track : solid.tracks)
         rows.emplace_back("track", fmt::format("{} at {} m", track.name, point(track.point)));
@@ -213,7 +264,7 @@ std::string task_table(const Report& report) {
 std::string parameter_tables(const Scene& scene) {
     std::string text = "<div class=\"facts-grid\">\n";
     if (scene.fluid) text += fluid_table(*scene.fluid);
-    if (scene.solid) text += solid_table(*scene.solid);
+    if (scene.solid) text += solid_table(*scene.solid, scene.dimension);
     std::vector<Row> rows{
         {"simulated time", fmt::format("{:g} s", scene.end_time)},
         {"gravity", fmt::format("{} m/s²", point(scene.gravity))},

@@ -11,6 +11,7 @@
 #include "io/expression.hpp"
 #include "io/point.hpp"
 #include "io/scene_geometry.hpp"
+#include "io/scene_solid.hpp"
 #include "physics/fluid/choices.hpp"
 
 namespace aquagraph::io {
@@ -86,38 +87,6 @@ struct WallScene {
     std::optional<MotionScene> motion;
     Slip slip = Slip::free;
     bool force = false;  // columns NAME_force_x … of the history
-};
-
-enum class MaterialLaw { saint_venant_kirchhoff, neo_hookean };
-enum class PlaneCondition { strain, stress };
-enum class SolidScheme { hht, newmark };
-
-struct Clamp {
-    std::string set;              // node set: left, right, bottom, top of a box; a physical group of a mesh
-    std::array<bool, 2> fixed{};  // x, y
-};
-
-struct Track {
-    std::string name;  // columns NAME_x[m], NAME_y[m]: displacement of the node nearest to point
-    Point point{};
-};
-
-struct SolidScene {
-    std::string name = "solid";
-    std::optional<Box> box;         // either a box, meshed with elements[0] × elements[1] quadrilaterals …
-    std::array<int, 2> elements{};  //
-    std::filesystem::path mesh;     // … or a Gmsh 4.1 file (absolute once read)
-    double density = 0;             // ρ_S [kg/m³]
-    double youngs_modulus = 0;      // E [Pa]
-    double poissons_ratio = 0;      // ν
-    MaterialLaw law = MaterialLaw::saint_venant_kirchhoff;
-    PlaneCondition plane = PlaneCondition::strain;
-    SolidScheme scheme = SolidScheme::hht;
-    double alpha = -0.3;        // αs in ]-1/3, 0]
-    bool static_start = false;  // equilibrium under its own weight before t = 0
-    std::vector<Clamp> clamps;
-    std::vector<std::string> wet;  // surface sets that touch the fluid
-    std::vector<Track> tracks;
 };
 
 enum class ProbeQuantity { pressure, velocity, level };

@@ -20,7 +20,6 @@ int agree_on_dimension(const CheckedDocument& document, Complaints& complaints) 
                                    dimension == 2 ? "[x, y]" : "[x, y, z]"));
     };
     for (const auto& [key, value] : document.values) {
-        if (dimension == 3 && key.starts_with("solid.")) continue;  // refused as a whole
         if (const Point* point = std::get_if<Point>(&value)) compare(key, *point);
         if (const auto* points = std::get_if<std::vector<Point>>(&value))
             for (std::size_t i = 0; i < points->size(); ++i) compare(fmt::format("{}[{}]", key, i), (*points)[i]);

@@ -143,6 +143,12 @@ void validate_formulas(const Scene& scene, Complaints& complaints) {
                 complaints.add(fmt::format("{}[0]", section), "there is no water in this scene to sum over",
                                "add [fluid]");
     }
+    if (scene.solid) {
+        for (std::size_t i = 0; i < scene.solid->tractions.size(); ++i)
+            check.formula(fmt::format("solid.traction[{}].factor", i), scene.solid->tractions[i].factor.formula, {"t"});
+        for (std::size_t i = 0; i < scene.solid->forces.size(); ++i)
+            check.formula(fmt::format("solid.force[{}].factor", i), scene.solid->forces[i].factor.formula, {"t"});
+    }
     std::set<std::string> columns;
     const auto name = [&](const std::string& key, const std::string& given) {
         if (complaints.touch(key) || given.empty()) return;

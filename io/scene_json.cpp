@@ -149,27 +149,57 @@ Json to_json(const FluidScene& fluid, int dimension) {
     return json;
 }
 
-Json to_json(const SolidScene& solid) {
-    Json json = {{"name", solid.name},
-                 {"plane", solid.plane == PlaneCondition::strain ? "strain" : "stress"},
-                 {"static_start", solid.static_start},
-                 {"wet", solid.wet}};
+Json to_json(const solid::Material& material) {
+    Json json = {{"law", word(material_law_words, material.law)}, {"density", material.density}};
+    if (material.law == solid::MaterialLaw::mooney_rivlin)
+        json.update({{"c10", material.c10}, {"c01", material.c01}, {"bulk_modulus", material.bulk_modulus}});
+    else
+        json.update({{"youngs_modulus", material.youngs_modulus}, {"poissons_ratio", material.poissons_ratio}});
+    return json;
+}
+
+void put(Json& json, const LoadHistory& factor) {
+    if (!factor.formula.empty()) json["factor"] = factor.formula;
+    if (!factor.table.empty()) json["table"] = factor.table.filename().string();
+}
+
+Json to_json(const SolidScene& solid, int dimension) {
+    Json json = {{"name", solid.name}, {"static_start", solid.static_start}, {"wet", solid.wet}};
+    if (dimension == 2) json["plane"] = word(plane_words, solid.plane);
     if (solid.box) {
         json["box"] = to_json(*solid.box);
-        json["box"]["elements"] = solid.elements;
+        json["box"]["elements"] = std::vector(solid.elements.begin(), solid.elements.begin() + dimension);
+        json["box"]["order"] = solid.element_order;
     } else {
         json["mesh"] = solid.mesh.filename().string();
     }
-    json["material"] = {{"law", solid.law == MaterialLaw::neo_hookean ? "neo_hookean" : "saint_venant_kirchhoff"},
-                        {"density", solid.density},
-                        {"youngs_modulus", solid.youngs_modulus},
-                        {"poissons_ratio", solid.poissons_ratio}};
-    json["scheme"] = {{"name", solid.scheme == SolidScheme::hht ? "hht" : "newmark"}, {"alpha", solid.alpha}};
+    json["material"] = to_json(solid.material);
+    for (const solid::Part& part : solid.parts) {
+        json["part"].push_back(to_json(part.material));
+        json["part"].back()["set"] = part.set;
+    }
+    if (solid.is_static)
+        json["scheme"] = {{"name", "static"}};
+    else
+        json["scheme"] = {{"name", word(solid_scheme_words, solid.scheme)}, {"alpha", solid.alpha}};
+    if (solid.step > 0) json["scheme"]["step"] = solid.step;
     for (const Clamp& clamp : solid.clamps) {
         Json fixed = Json::array();
-        if (clamp.fixed[0]) fixed.push_back("x");
-        if (clamp.fixed[1]) fixed.push_back("y");
+        for (std::size_t d = 0; d < 3; ++d)
+            if (clamp.fixed[d]) fixed.push_back(std::string(1, "xyz"[d]));
         json["clamp"].push_back({{"set", clamp.set}, {"fixed", fixed}});
+    }
+    for (const TractionScene& traction : solid.tractions) {
+        json["traction"].push_back({{"surface", traction.surface}, {"value", traction.value}});
+        put(json["traction"].back(), traction.factor);
+    }
+    for (const ForceScene& force : solid.forces) {
+        json["force"].push_back({{"value", force.value}});
+        if (force.point)
+            json["force"].back()["point"] = *force.point;
+        else
+            json["force"].back()["set"] = force.set;
+        put(json["force"].back(), force.factor);
     }
     for (const Track& track : solid.tracks) json["track"].push_back({{"name", track.name}, {"point", track.point}});
     return json;
@@ -235,7 +265,7 @@ nlohmann::json to_json(const Scene& scene) {
     json["domain"]["periodic"] = scene.periodic;
     if (scene.fluid) json["fluid"] = to_json(*scene.fluid, scene.dimension);
     for (const WallScene& wall : scene.walls) json["wall"].push_back(to_json(wall));
-    if (scene.solid) json["solid"] = to_json(*scene.solid);
+    if (scene.solid) json["solid"] = to_json(*scene.solid, scene.dimension);
     for (const ProbeScene& probe : scene.probes) json["probe"].push_back(to_json(probe));
     if (scene.fluid && scene.solid)
         json["coupling"] = {{"algorithm", scene.coupling.algorithm == CouplingAlgorithm::cps ? "cps" : "css"},

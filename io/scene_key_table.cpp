@@ -1,8 +1,12 @@
-// The sections and keys of a scene file: data only. io/scene_keys.cpp says what is done with them.
+// The sections and keys of a scene file: data only, those of the solid in scene_solid_keys.cpp. io/scene_keys.cpp says
+// what is done with them.
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <vector>
 
 #include "io/scene_keys.hpp"
+#include "io/scene_solid_keys.hpp"
 
 namespace aquagraph::io {
 namespace {
@@ -20,7 +24,7 @@ constexpr auto sections = std::to_array<SceneSection>({
      true},
     {"time", false, true, "How long."},
     {"domain", false, true, "Where particles live. Walls and the solid may stand outside it."},
-    {"fluid", false, false, "The water: weakly compressible SPH. A scene needs it: a solid alone cannot be run yet."},
+    {"fluid", false, false, "The water: weakly compressible SPH. Without it the scene is a solid alone."},
     {"fluid.scheme", false, false, "How particles act on each other."},
     {"fluid.viscosity", false, false, "Viscous forces. Without it the water has none beside the scheme's own."},
     {"fluid.transport", false, false, "What particles move with besides the water's velocity."},
@@ -61,12 +65,6 @@ constexpr auto sections = std::to_array<SceneSection>({
      "and velocity are interpolated between the particles around; in the air they are 0. A level is the height of the "
      "free surface on the line upwards from the point: the highest place where the particles fill half of what they "
      "fill in the water below it."},
-    {"solid", false, false, "The elastic body: finite elements. Without it the scene is a fluid alone."},
-    {"solid.box", false, false, "A rectangle of eight-node quadrilaterals, with the sets left, right, bottom and top."},
-    {"solid.material", false, false, "What the body is made of. Needed with [solid]."},
-    {"solid.scheme", false, false, "How the body is taken through time."},
-    {"solid.clamp", true, false, "Nodes that do not move."},
-    {"solid.track", true, false, "Points whose displacement goes into history.csv as NAME_x[m] and NAME_y[m]."},
     {"coupling", false, false, "How fluid and solid wait for each other. Only where the scene has both."},
     {"output", false, false, "What is written, and how often."},
     {"integral", true, false,
@@ -363,44 +361,6 @@ constexpr auto keys = std::to_array<SceneKey>({
      "of pressure and velocity: a weighted mean, or a fitted line, which does not shift what is measured on a wall "
      "into the water but is more restless"},
 
-    {"solid", "name", K::text, false, "", any, "", "solid", "letters, digits and _, beginning with a letter"},
-    {"solid", "mesh", K::text, false, "", any, "", "none",
-     "Gmsh 4.1 file, seen from the scene's folder; either this or [solid.box]"},
-    {"solid", "plane", K::choice, false, "", any, "strain stress", "strain", "what holds across the plane"},
-    {"solid", "static_start", K::boolean, false, "", any, "", "false",
-     "start from the equilibrium under its own weight, without the water"},
-    {"solid", "wet", K::texts, false, "", any, "", "none",
-     "surface sets that touch the water; needed where the scene has water"},
-
-    {"solid.box", "min", K::point, true, "m", any, "", "", "lower left corner"},
-    {"solid.box", "max", K::point, true, "m", any, "", "", "upper right corner"},
-    {"solid.box", "elements", K::pair_of_counts, true, "", at_least_one, "", "", "number along x and along y"},
-
-    {"solid.material", "law", K::choice, false, "", any, "saint_venant_kirchhoff neo_hookean", "saint_venant_kirchhoff",
-     "stress from strain; the second where strains are large"},
-    {"solid.material", "density", K::number, true, "kg/m³", positive, "", "", "ρ of the body at rest"},
-    {"solid.material", "youngs_modulus", K::number, true, "Pa", positive, "", "", "E at small strain"},
-    {"solid.material", "poissons_ratio", K::number, true, "", {-1, 0.5, true, true}, "", "", "ν at small strain"},
-
-    {"solid.scheme", "name", K::choice, false, "", any, "hht newmark", "hht",
-     "Hilber–Hughes–Taylor, or Newmark with the same β and γ"},
-    {"solid.scheme",
-     "alpha",
-     K::number,
-     false,
-     "",
-     {-1.0 / 3, 0, true, false},
-     "",
-     "-0.3",
-     "αs, numerical damping of high frequencies: 0 none"},
-
-    {"solid.clamp", "set", K::text, true, "", any, "", "", "node set: of a box left, right, bottom, top"},
-    {"solid.clamp", "fixed", K::texts, false, "", any, "", "[\"x\", \"y\"]", "which displacements are zero"},
-
-    {"solid.track", "name", K::text, true, "", any, "", "",
-     "letters, digits and _, beginning with a letter; each once"},
-    {"solid.track", "point", K::point, true, "m", any, "", "", "at rest; the nearest node is taken"},
-
     {"coupling", "algorithm", K::choice, false, "", any, "cps css", "cps",
      "parallel (the solid runs beside the fluid) or sequential staggered"},
     {"coupling", "ratio", K::integer, false, "", {1, 100, false, false}, "", "1", "p, fluid steps per solid step"},
@@ -471,20 +431,35 @@ constexpr auto keys = std::to_array<SceneKey>({
 constexpr auto reserved = std::to_array<std::string_view>(
     {"time", "step", "fluid", "solid", "force", "energy", "all", "interface", "total", "particles"});
 
+// The solid's sections come before [coupling], as in benchmarks/SCENES.md.
+std::vector<SceneSection> all_sections() {
+    std::vector<SceneSection> all(sections.begin(), sections.end());
+    const auto place = std::find_if(all.begin(), all.end(), [](const auto& s) { return s.name == "coupling"; });
+    all.insert(place, solid_sections().begin(), solid_sections().end());
+    return all;
+}
+std::vector<SceneKey> all_keys() {
+    std::vector<SceneKey> all(keys.begin(), keys.end());
+    all.insert(all.end(), solid_keys().begin(), solid_keys().end());
+    return all;
+}
+
 }  // namespace
 
 std::span<const SceneSection> scene_sections() {
-    return sections;
+    return scene_table().sections;
 }
 std::span<const SceneKey> scene_keys() {
-    return keys;
+    return scene_table().keys;
 }
 std::span<const std::string_view> reserved_names() {
     return reserved;
 }
 
 const KeyTable& scene_table() {
-    static constexpr KeyTable table{"scene", sections, keys};
+    static const std::vector<SceneSection> known_sections = all_sections();
+    static const std::vector<SceneKey> known_keys = all_keys();
+    static const KeyTable table{"scene", known_sections, known_keys};
     return table;
 }
 

@@ -25,7 +25,7 @@ std::string kind_text(const SceneKey& key) {
             return "text";
         case K::point:
             return "[x, y]";
-        case K::pair_of_counts:
+        case K::counts:
             return "[nx, ny]";
         case K::formula:
             return "formula";
@@ -100,8 +100,8 @@ std::string expectation(const SceneKey& key) {
         case K::point:
             text = "two numbers [x, y] or three [x, y, z]";
             break;
-        case K::pair_of_counts:
-            text = "two whole numbers [nx, ny]";
+        case K::counts:
+            text = "two whole numbers [nx, ny] or three [nx, ny, nz]";
             break;
         case K::formula:
             text = "a formula in quotes or a number";
@@ -130,7 +130,7 @@ std::string expectation(const SceneKey& key) {
     else if (range.front() == '[' || range.front() == ']')
         text += " in " + range;
     else if (range != "any")
-        text += (key.kind == K::pair_of_counts || key.kind == K::numbers ? ", each " : " ") + range;
+        text += (key.kind == K::counts || key.kind == K::numbers ? ", each " : " ") + range;
     if (!key.unit.empty()) text += fmt::format(", in {}", key.unit);
     return text;
 }

@@ -15,7 +15,7 @@ enum class KeyKind {
     text,
     choice,
     point,
-    pair_of_counts,
+    counts,
     texts,
     points,
     interval,
@@ -40,7 +40,7 @@ struct SceneKey {
     KeyKind kind;
     bool required;
     std::string_view unit;      // "m"; empty: none
-    ValueRange range;           // of numbers, integers and entries of pair_of_counts
+    ValueRange range;           // of numbers, integers and entries of counts
     std::string_view choices;   // of a choice, blank-separated: "muscl none"
     std::string_view standard;  // the default, as SCENES.md says it; empty where required
     std::string_view meaning;

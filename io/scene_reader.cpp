@@ -10,6 +10,7 @@
 #include "io/scene_dimension.hpp"
 #include "io/scene_formulas.hpp"
 #include "io/scene_geometry_reader.hpp"
+#include "io/scene_solid_reader.hpp"
 #include "io/scene_validation.hpp"
 #include "io/scene_words.hpp"
 #include "io/suggestion.hpp"
@@ -50,7 +51,7 @@ class Filler {
         document_.take("domain.periodic", scene_.periodic);
         if (document_.count("fluid")) fluid(scene_.fluid.emplace());
         walls();
-        if (document_.count("solid")) solid(scene_.solid.emplace());
+        if (document_.count("solid")) read_solid(document_, complaints_, scene_);
         probes();
         choose("coupling.algorithm", scene_.coupling.algorithm,
                {{"cps", CouplingAlgorithm::cps}, {"css", CouplingAlgorithm::css}});
@@ -142,35 +143,6 @@ class Filler {
         }
     }
 
-    void solid(SolidScene& solid) {
-        document_.take("solid.name", solid.name);
-        if (std::string mesh; document_.take("solid.mesh", mesh)) solid.mesh = beside_the_scene(mesh);
-        if (document_.count("solid.box")) {
-            solid.box.emplace();
-            document_.take("solid.box.min", solid.box->min);
-            document_.take("solid.box.max", solid.box->max);
-            document_.take("solid.box.elements", solid.elements);
-        }
-        choose("solid.plane", solid.plane, {{"strain", PlaneCondition::strain}, {"stress", PlaneCondition::stress}});
-        document_.take("solid.static_start", solid.static_start);
-        document_.take("solid.wet", solid.wet);
-        choose("solid.material.law", solid.law,
-               {{"saint_venant_kirchhoff", MaterialLaw::saint_venant_kirchhoff},
-                {"neo_hookean", MaterialLaw::neo_hookean}});
-        document_.take("solid.material.density", solid.density);
-        document_.take("solid.material.youngs_modulus", solid.youngs_modulus);
-        document_.take("solid.material.poissons_ratio", solid.poissons_ratio);
-        choose("solid.scheme.name", solid.scheme, {{"hht", SolidScheme::hht}, {"newmark", SolidScheme::newmark}});
-        document_.take("solid.scheme.alpha", solid.alpha);
-        for (int i = 0; i < document_.count("solid.clamp"); ++i)
-            clamp(solid.clamps.emplace_back(), fmt::format("solid.clamp[{}].", i));
-        for (int i = 0; i < document_.count("solid.track"); ++i) {
-            Track& track = solid.tracks.emplace_back();
-            document_.take(fmt::format("solid.track[{}].name", i), track.name);
-            document_.take(fmt::format("solid.track[{}].point", i), track.point);
-        }
-    }
-
     void probes() {
         for (int i = 0; i < document_.count("probe"); ++i) {
             ProbeScene& probe = scene_.probes.emplace_back();
@@ -185,20 +157,6 @@ class Filler {
             choose(at + "interpolation", probe.interpolation,
                    {{"shepard", ProbeInterpolation::shepard}, {"linear", ProbeInterpolation::linear}});
         }
-    }
-
-    void clamp(Clamp& clamp, const std::string& at) {
-        document_.take(at + "set", clamp.set);
-        std::vector<std::string> fixed{"x", "y"};
-        document_.take(at + "fixed", fixed);
-        for (const std::string& axis : fixed) {
-            if (axis == "x") clamp.fixed[0] = true;
-            if (axis == "y") clamp.fixed[1] = true;
-        }
-        if (fixed.empty() ||
-            std::any_of(fixed.begin(), fixed.end(), [](const std::string& a) { return a != "x" && a != "y"; }))
-            complaints_.add(at + "fixed", "`fixed` must name \"x\", \"y\" or both",
-                            "fixed = [\"x\", \"y\"] holds the nodes where they are");
     }
 
     void columns() {

@@ -12,6 +12,7 @@
 #include "io/scene_formulas.hpp"
 #include "io/scene_geometry_validation.hpp"
 #include "io/scene_keys.hpp"
+#include "io/scene_solid_validation.hpp"
 #include "io/suggestion.hpp"
 
 namespace aquagraph::io {
@@ -58,10 +59,12 @@ class Validation {
                 "coupling",
                 fmt::format("[coupling] needs a fluid and a solid, but there is no [{}]", fluid ? "solid" : "fluid"),
                 fmt::format("add [{}] or take [coupling] out", fluid ? "solid" : "fluid"));
-        if (solid && scene_.dimension == 3)
-            complaints_.add(
-                "solid", "a solid in three dimensions cannot be computed yet",
-                "take [solid] and [coupling] out, or make the scene two-dimensional: [domain] min = [x, y]");
+        if (solid && fluid && scene_.dimension == 3)
+            complaints_.add("solid", "in three dimensions a solid is not coupled with water yet",
+                            "take [solid] out, or [fluid], or make the scene two-dimensional: [domain] min = [x, y]");
+        if (!fluid && !scene_.walls.empty() && !complaints_.touch("fluid"))
+            complaints_.add("wall[0]", "walls hold water, and there is none in this scene",
+                            "take the walls out, or add [fluid]");
         if (!fluid) return;
         if (scene_.fluid->boxes.empty() && scene_.fluid->regions.empty() && !complaints_.touch("fluid.box"))
             complaints_.add("fluid", "[fluid] has no water in it", "add at least one [[fluid.box]] with min and max");
@@ -243,34 +246,6 @@ class Validation {
             name(element("solid.track", i, "name"), scene_.solid->tracks[i].name, tracks);
     }
 
-    void solid() {
-        if (!scene_.solid) return;
-        const SolidScene& solid = *scene_.solid;
-        body(solid);
-        if (!complaints_.positions.contains("solid.material"))
-            complaints_.add("solid.material", "[solid.material] is missing",
-                            "give density, youngs_modulus and poissons_ratio of the body");
-        for (std::size_t i = 0; i < solid.wet.size(); ++i) known_set(element("solid.wet", i), solid.wet[i], "surface");
-        repeated(solid.wet, "solid.wet", "");
-        std::vector<std::string> clamped;
-        for (std::size_t i = 0; i < solid.clamps.size(); ++i) {
-            clamped.push_back(solid.clamps[i].set);
-            known_set(element("solid.clamp", i, "set"), solid.clamps[i].set, "node set");
-        }
-        repeated(clamped, "solid.clamp", "set");
-        if (solid.wet.empty() && !complaints_.touch("solid.wet")) {
-            if (complaints_.positions.contains("solid.wet"))
-                complaints_.add("solid.wet", "`wet` is empty",
-                                "name the surfaces that touch the water: wet = [\"left\", \"bottom\"]");
-            else if (scene_.fluid)
-                complaints_.add("solid.wet", "no surface of the solid touches the water: `wet` is missing in [solid]",
-                                "name the surfaces that touch the water: wet = [\"left\", \"bottom\"]");
-        }
-        if (solid.static_start && solid.clamps.empty() && !complaints_.touch("solid.clamp"))
-            complaints_.add("solid.static_start", "a body without any [[solid.clamp]] has no equilibrium to start from",
-                            "clamp it or take `static_start` out");
-    }
-
     void probes() {
         std::vector<std::string> walls;
         for (const WallScene& wall : scene_.walls) walls.push_back(wall.name);
@@ -356,40 +331,6 @@ class Validation {
             }
     }
 
-    void body(const SolidScene& solid) {
-        const bool box = complaints_.positions.contains("solid.box"),
-                   mesh = complaints_.positions.contains("solid.mesh");
-        if (box && mesh)
-            complaints_.add("solid.mesh", "[solid] has both `mesh` and [solid.box]",
-                            "keep one of them: the body is either read or meshed here");
-        if (!box && !mesh)
-            complaints_.add("solid", "[solid] has no shape: neither `mesh` nor [solid.box]",
-                            "give mesh = \"file.msh\" or a [solid.box] with min, max and elements");
-        if (box && !complaints_.touch("solid.box")) ordered(*solid.box, "solid.box");
-        if (mesh && !complaints_.touch("solid.mesh") && !std::filesystem::exists(solid.mesh))
-            complaints_.add("solid.mesh",
-                            fmt::format("the mesh {} does not exist", solid.mesh.lexically_normal().string()),
-                            "a Gmsh 4.1 file; the path is seen from the scene's folder");
-    }
-
-    // The sets of a mesh are only known once it is read.
-    void known_set(const std::string& key, const std::string& set, std::string_view what) {
-        static const std::vector<std::string> sets{"left", "right", "bottom", "top"};
-        if (!scene_.solid->box || complaints_.touch(key) || std::find(sets.begin(), sets.end(), set) != sets.end())
-            return;
-        const auto guess = nearest(set, sets);
-        complaints_.add(key, fmt::format("the box has no {} \"{}\"", what, set),
-                        guess ? fmt::format("did you mean \"{}\"?", *guess) : "a box has left, right, bottom and top");
-    }
-
-    void repeated(const std::vector<std::string>& sets, std::string_view list, std::string_view key) {
-        std::set<std::string> seen;
-        for (std::size_t i = 0; i < sets.size(); ++i)
-            if (!sets[i].empty() && !seen.insert(sets[i]).second)
-                complaints_.add(element(list, i, key), fmt::format("\"{}\" is named twice", sets[i]),
-                                "name each set once");
-    }
-
     void name(const std::string& key, const std::string& given, std::set<std::string>& taken) {
         if (complaints_.touch(key) || given.empty()) return;
         const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
@@ -420,7 +361,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     if (complaints.positions.contains("domain") && !complaints.touch("domain"))
         validation.ordered(scene.domain, "domain");
     validation.periodic(complaints.positions.contains("domain") && !complaints.touch("domain"));
-    if (scene.dimension == 2) validation.solid();
+    validate_solid(scene, complaints);
     validation.fluid_scheme();
     validation.wall_method();
     validation.fluid_boxes();

@@ -32,6 +32,16 @@ inline constexpr Words<fluid::Transport, 3> transport_words{
 
 inline constexpr Words<Slip, 3> slip_words{{{"free", Slip::free}, {"none", Slip::none}, {"symmetry", Slip::symmetry}}};
 
+inline constexpr Words<solid::MaterialLaw, 4> material_law_words{
+    {{"saint_venant_kirchhoff", solid::MaterialLaw::saint_venant_kirchhoff},
+     {"linear", solid::MaterialLaw::linear},
+     {"neo_hookean", solid::MaterialLaw::neo_hookean},
+     {"mooney_rivlin", solid::MaterialLaw::mooney_rivlin}}};
+inline constexpr Words<solid::PlaneCondition, 2> plane_words{
+    {{"strain", solid::PlaneCondition::strain}, {"stress", solid::PlaneCondition::stress}}};
+inline constexpr Words<solid::Scheme, 2> solid_scheme_words{
+    {{"hht", solid::Scheme::hht}, {"newmark", solid::Scheme::newmark}}};
+
 // The word for a meaning.
 template <class E, std::size_t n>
 constexpr std::string_view word(const Words<E, n>& words, E meaning) {

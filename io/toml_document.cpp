@@ -213,7 +213,7 @@ class Checker {
             case KeyKind::numbers:
                 numbers(key, path, node);
                 break;
-            case KeyKind::pair_of_counts:
+            case KeyKind::counts:
                 counts(key, path, node);
                 break;
             case KeyKind::texts:
@@ -313,10 +313,13 @@ class Checker {
     }
 
     void counts(const SceneKey& key, const std::string& path, const toml::node& node) {
-        const toml::array* both = list(key, path, node, 2);
-        if (!both) return;
-        const auto first = whole(key, path, (*both)[0]), second = whole(key, path, (*both)[1]);
-        if (first && second) keep(path, std::array<int, 2>{*first, *second});
+        const bool three = node.is_array() && node.as_array()->size() == 3;
+        const toml::array* all = list(key, path, node, three ? 3 : 2);
+        if (!all) return;
+        std::vector<int> counts;
+        for (auto&& element : *all)
+            if (const auto count = whole(key, path, element)) counts.push_back(*count);
+        if (counts.size() == all->size()) keep(path, std::move(counts));
     }
 
     void texts(const SceneKey& key, const std::string& path, const toml::node& node) {

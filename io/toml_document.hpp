@@ -14,7 +14,7 @@
 
 namespace aquagraph::io {
 
-using DocumentValue = std::variant<double, int, bool, std::string, std::array<double, 2>, std::array<int, 2>, Point,
+using DocumentValue = std::variant<double, int, bool, std::string, std::array<double, 2>, std::vector<int>, Point,
                                    std::vector<std::string>, std::vector<Point>, std::vector<double>>;
 
 struct CheckedDocument {

@@ -188,6 +188,8 @@ elements = [10, 2]
 density = 1000.0
 youngs_modulus = 1.0e7
 poissons_ratio = 0.3
+[solid.scheme]
+step = 0.001
 [[solid.clamp]]
 set = "left"
 )";

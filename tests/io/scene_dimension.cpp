@@ -96,6 +96,8 @@ TEST_CASE("what only makes sense in the plane is refused in space") {
     expect("[1.0, 0.0, 0.0], [1.0, 0.5, 0.0], [0.0, 0.5, 0.0]", "[1.0, 0.0, 0.0]", 15, 10,
            "a wall needs at least 3 points", "counter-clockwise");
     expect("[[wall]]",
-           "[solid]\nwet = [\"left\"]\n[solid.box]\nmin = [1, 0]\nmax = [2, 1]\nelements = [1, 1]\n[[wall]]", 13, 1,
-           "a solid in three dimensions cannot be computed yet", "take [solid]");
+           "[solid]\nwet = [\"left\"]\n[solid.box]\nmin = [1, 0, 0]\nmax = [2, 1, 1]\nelements = [1, 1, "
+           "1]\n[solid.material]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = "
+           "0\n[[wall]]",
+           13, 1, "in three dimensions a solid is not coupled with water yet", "take [solid]");
 }

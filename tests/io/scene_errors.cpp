@@ -293,6 +293,50 @@ TEST_CASE("the solid's shape and sets") {
         19, 16, "has no equilibrium to start from", "clamp it");
 }
 
+TEST_CASE("laws and their numbers") {
+    const std::string numbers = "density = 1100.0\nyoungs_modulus = 1e6\npoissons_ratio = 0.4\n";
+    expect("youngs_modulus = 1e6\n", "", 23, 1, "`youngs_modulus` is missing in [solid.material]",
+           "the law saint_venant_kirchhoff takes density, youngs_modulus and poissons_ratio");
+    expect(numbers, "law = \"mooney_rivlin\"\ndensity = 1100.0\nc10 = 1e5\n", 23, 1,
+           "`bulk_modulus` is missing in [solid.material]", "c01 (0 if not given)");
+    expect(numbers, numbers + "c10 = 1e5\n", 27, 7, "`c10` does not belong to the law saint_venant_kirchhoff",
+           "it takes density, youngs_modulus");
+    expect(numbers, "law = \"neo_hookean\"\n" + numbers + "[[solid.part]]\nset = \"belt\"\n" + numbers, 29, 7,
+           "a box has no element sets", "physical groups");
+}
+
+TEST_CASE("a solid without water") {
+    std::string alone = sound;
+    alone = with(alone,
+                 "[fluid]\nspacing = 0.1\nsound_speed = 20.0\n[[fluid.box]]\nmin = [0.0, 0.0]\nmax = [1.0, "
+                 "0.5]\n[[wall]]\nname = \"floor\"\npoints = [[0.0, 0.0], [1.0, 0.0]]\n",
+                 "");
+    alone = with(with(alone, "wet = [\"left\"]\n", ""), "[coupling]\nratio = 2\n", "");
+    const auto found = [&](const std::string& extra, const std::string& message) {
+        const std::string error = error_of(alone + extra);
+        CAPTURE(error);
+        CHECK(error.find(message) != std::string::npos);
+    };
+    const std::string step = "[solid.scheme]\nstep = 1e-3\n",
+                      load = "[[solid.traction]]\nsurface = \"left\"\nvalue = [1, 0]\n";
+    CHECK(error_of(alone + step + load) == "");
+    CHECK(error_of(alone + "[solid.scheme]\nname = \"static\"\n") == "");
+    found("", "nothing says how long a time step is");
+    found("[solid.scheme]\nname = \"static\"\nalpha = -0.1\n", "this does nothing in a static run");
+    found(step + "[[wall]]\nname = \"floor\"\npoints = [[0.0, 0.0], [1.0, 0.0]]\n", "walls hold water");
+    found(step + with(load, "left", "lefd"), "the box has no surface \"lefd\"");
+    found(step + load + "factor = \"x\"\n", "\"x\" is no formula");
+    found(step + load + "table = \"none.csv\"\n", "none.csv does not exist");
+    found(step + "[[solid.force]]\nvalue = [1, 0]\n", "neither `set` nor `point`");
+    found(step + "[[solid.force]]\nvalue = [1, 0]\npoint = [1, 0, 0]\n", "a point of 3 coordinates");
+    found(step + "[[solid.force]]\nvalue = [1, 0]\nset = \"top\"\npoint = [1, 0]\n", "both a `set` and a `point`");
+    found(step + "[[probe]]\nname = \"p\"\nquantity = \"pressure\"\npoint = [0, 0]\n", "a probe needs water");
+    expect("[coupling]", load + "[coupling]", 32, 1, "a body in water bears the water's load alone", "");
+    expect("[coupling]", step + "[coupling]", 33, 8, "with water the step of the solid is the coupling cycle", "");
+    expect("elements = [1, 5]", "elements = [1, 5, 2]", 22, 12, "3 counts in a scene of 2 dimensions", "along y]");
+    expect("elements = [1, 5]", "elements = [1, 5]\norder = 1", 23, 9, "needs elements with nodes on their edges", "");
+}
+
 TEST_CASE("parts that a scene needs together") {
     const std::string head = "schema_version = 1\n[time]\nend = 1.0\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n";
     const std::string none = error_of(head);

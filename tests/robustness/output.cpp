@@ -74,14 +74,18 @@ TEST_CASE("a second run into the same folder leaves nothing of the first") {
     CHECK(results.frames("solid").size() == results.frames_on_disk("solid"));
 }
 
-TEST_CASE("a scene with a solid alone is refused with a reason") {
-    for (const char* command : {"run", "check", "graph"}) {
-        CAPTURE(command);
-        const Call call({command, "SCENE"}, beam);
-        CHECK(call.code == 2);
-        CHECK(call.left_nothing());
-        CHECK(call.err.find("no water") != std::string::npos);
-    }
+TEST_CASE("a scene with a solid alone runs, can be looked at beforehand and drawn") {
+    const Call run({"run", "SCENE", "--out", "results", "--quiet"}, beam);
+    CHECK(run.code == 0);
+    CHECK(ResultsFolder{run.folder / "results"}.frames("solid").size() > 2);
+    const Call check({"check", "SCENE"}, beam);
+    CHECK(check.code == 0);
+    CHECK(check.out.find("20 quadrilaterals of 8 nodes") != std::string::npos);
+    CHECK(check.out.find("in 10 steps of 0.001 s") != std::string::npos);
+    CHECK(check.left_nothing());
+    const Call graph({"graph", "SCENE", "--out", "step.dot"}, beam);
+    CHECK(graph.code == 0);
+    CHECK(contents(graph.folder / "step.dot").find("FE Newton solve") != std::string::npos);
 }
 
 TEST_CASE("check says what a scene is and computes nothing") {

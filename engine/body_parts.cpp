@@ -1,0 +1,176 @@
+#include "engine/body_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "io/comparison.hpp"
+#include "io/expression.hpp"
+#include "io/scene_formulas.hpp"
+#include "io/scene_reader.hpp"
+#include "physics/solid/gmsh_mesh.hpp"
+#include "tasks/parallel_loop.hpp"
+#include "tasks/stepping.hpp"
+#include "tasks/structural_step.hpp"
+
+namespace aquagraph::engine {
+
+namespace {
+
+template <int D>
+solid::Mesh<D> read_mesh(const io::Scene& scene) {
+    const std::filesystem::path& path = scene.solid->mesh;
+    std::ifstream file(path);
+    if (!file)
+        throw io::scene_error(scene, "solid.mesh", "the mesh file " + path.string() + " cannot be opened",
+                              "give the path of a Gmsh 4.1 file, relative to the scene");
+    try {
+        if constexpr (D == 2) return solid::read_gmsh(file, path.string());
+    } catch (const solid::MeshError& error) {
+        throw io::scene_error(scene, "solid.mesh", error.what(), "mend the mesh, or mesh a box with [solid.box]");
+    }
+    throw io::scene_error(scene, "solid.mesh", "meshes in three dimensions cannot be read yet", "mesh a [solid.box]");
+}
+
+template <int D>
+solid::Mesh<D> make_mesh(const io::Scene& scene) {
+    const io::SolidScene& from = *scene.solid;
+    if (!from.box) return read_mesh<D>(scene);
+    const auto& n = from.elements;
+    solid::Mesh<D> mesh;
+    if constexpr (D == 2)
+        mesh = solid::box_mesh(from.box->min.as<2>(), from.box->max.as<2>(), n[0], n[1]);
+    else
+        mesh = solid::box_mesh(from.box->min.as<3>(), from.box->max.as<3>(), n);
+    return from.element_order == 1 ? solid::without_mid_side_nodes(mesh) : mesh;
+}
+
+// Straight lines between the points of a table, constant outside.
+double interpolated(const io::Curve& table, double t) {
+    const auto above = std::upper_bound(table.time.begin(), table.time.end(), t);
+    if (above == table.time.begin()) return table.value.front();
+    if (above == table.time.end()) return table.value.back();
+    const auto k = std::size_t(above - table.time.begin());
+    const double part = (t - table.time[k - 1]) / (table.time[k] - table.time[k - 1]);
+    return table.value[k - 1] + part * (table.value[k] - table.value[k - 1]);
+}
+
+std::function<double(double)> factor_of(const io::Scene& scene, const io::LoadHistory& history) {
+    if (!history.table.empty()) {
+        io::Compare columns;
+        columns.file = history.table;
+        return [table = io::read_reference(columns)](double t) { return interpolated(table, t); };
+    }
+    if (history.formula.empty()) return {};
+    // Held by pointer: functions are copied, formulas are not.
+    const auto formula =
+        std::make_shared<io::Expression>(history.formula, std::vector<std::string>{"t"}, io::all_constants(scene));
+    return [formula](double t) { return (*formula)(std::span(&t, 1)); };
+}
+
+template <int D>
+std::vector<solid::DeadLoad> make_loads(const io::Scene& scene, const solid::Mesh<D>& mesh) {
+    std::vector<solid::DeadLoad> loads;
+    std::string key;
+    try {
+        for (std::size_t k = 0; k < scene.solid->tractions.size(); ++k) {
+            const io::TractionScene& traction = scene.solid->tractions[k];
+            key = fmt::format("solid.traction[{}].surface", k);
+            loads.push_back(
+                {traction_forces(mesh, traction.surface, traction.value.as<D>()), factor_of(scene, traction.factor)});
+        }
+        for (std::size_t k = 0; k < scene.solid->forces.size(); ++k) {
+            const io::ForceScene& force = scene.solid->forces[k];
+            key = fmt::format("solid.force[{}].set", k);
+            const std::vector<solid::NodeIndex> nodes =
+                force.point ? std::vector{solid::NodeIndex(nearest_node(mesh, *force.point))}
+                            : mesh.node_set(force.set);
+            loads.push_back({shared_force(mesh, nodes, force.value.as<D>()), factor_of(scene, force.factor)});
+        }
+    } catch (const std::invalid_argument& error) {
+        throw io::scene_error(scene, key, error.what(), "name a set of the mesh");
+    }
+    return loads;
+}
+
+}  // namespace
+
+template <int D>
+solid::Solver<D> make_solid(const io::Scene& scene) {
+    const io::SolidScene& from = *scene.solid;
+    solid::Options<D> options;
+    options.material = from.material;
+    options.parts = from.parts;
+    options.plane = from.plane;
+    options.gravity = scene.gravity.as<D>();
+    options.scheme = from.scheme;
+    options.alpha = from.alpha;
+    for (const io::Clamp& clamp : from.clamps) {
+        solid::Clamp<D>& made = options.clamps.emplace_back();
+        made.set = clamp.set;
+        std::copy_n(clamp.fixed.begin(), D, made.fixed.begin());
+    }
+    try {
+        return solid::Solver<D>(make_mesh<D>(scene), options);
+    } catch (const std::invalid_argument& error) {
+        throw io::scene_error(scene, "solid", error.what(), "see [solid] in SCENES.md");
+    }
+}
+
+template <int D>
+void make_structure(const io::Scene& scene, Model<D>& model) {
+    model.solid = make_solid<D>(scene);
+    Structure& structure = model.structure.emplace();
+    structure.step = scene.solid->step;
+    structure.is_static = scene.solid->is_static;
+    structure.loads = make_loads(scene, model.solid->mesh());
+    structure.forces.assign(D * model.solid->mesh().nodes.size(), 0.0);
+}
+
+template <int D>
+void static_start(const io::Scene& scene, Model<D>& model) {
+    if (!scene.solid->static_start) return;
+    std::vector<double> forces(D * model.solid->mesh().nodes.size(), 0.0);
+    if (model.structure) sum_at(model.structure->loads, 0, forces);
+    model.solid->solve_static(forces, tasks::parallel_loop);
+}
+
+template <int D>
+std::vector<tasks::Task> structural_step(Model<D>& model) {
+    Structure& structure = *model.structure;
+    std::vector<tasks::Task> listing{tasks::structural_time_step(model.clock, structure.step),
+                                     tasks::dead_loads(structure.loads, model.clock, structure.forces)};
+    listing.push_back(structure.is_static ? tasks::structural_equilibrium(*model.solid, structure.forces)
+                                          : tasks::structural_step(*model.solid, structure.forces, model.clock));
+    listing.push_back(tasks::advance_clock(model.clock, "step"));
+    return listing;
+}
+
+template <int D>
+std::size_t nearest_node(const solid::Mesh<D>& mesh, const io::Point& point) {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+        double distance2 = 0;
+        for (std::size_t d = 0; d < D; ++d) distance2 += (mesh.nodes[n][d] - point[d]) * (mesh.nodes[n][d] - point[d]);
+        if (distance2 < least) {
+            least = distance2;
+            nearest = n;
+        }
+    }
+    return nearest;
+}
+
+#define AQUAGRAPH_INSTANTIATE(D)                                  \
+    template solid::Solver<D> make_solid(const io::Scene&);       \
+    template void make_structure(const io::Scene&, Model<D>&);    \
+    template void static_start(const io::Scene&, Model<D>&);      \
+    template std::vector<tasks::Task> structural_step(Model<D>&); \
+    template std::size_t nearest_node(const solid::Mesh<D>&, const io::Point&);
+AQUAGRAPH_INSTANTIATE(2)
+AQUAGRAPH_INSTANTIATE(3)
+#undef AQUAGRAPH_INSTANTIATE
+
+}  // namespace aquagraph::engine

@@ -1,0 +1,152 @@
+#include "io/scene_solid_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/scene_words.hpp"
+
+namespace aquagraph::io {
+namespace {
+
+class SolidReader {
+  public:
+    SolidReader(const CheckedDocument& document, Complaints& complaints, Scene& scene)
+        : document_(document), complaints_(complaints), scene_(scene), solid_(scene.solid.emplace()) {}
+
+    void everything() {
+        document_.take("solid.name", solid_.name);
+        path("solid.mesh", solid_.mesh);
+        if (document_.count("solid.box")) box();
+        choose("solid.plane", solid_.plane, plane_words);
+        document_.take("solid.static_start", solid_.static_start);
+        document_.take("solid.wet", solid_.wet);
+        material("solid.material", solid_.material);
+        for (int i = 0; i < document_.count("solid.part"); ++i) {
+            const std::string at = fmt::format("solid.part[{}]", i);
+            solid::Part& part = solid_.parts.emplace_back();
+            document_.take(at + ".set", part.set);
+            material(at, part.material);
+        }
+        scheme();
+        for (int i = 0; i < document_.count("solid.clamp"); ++i)
+            clamp(solid_.clamps.emplace_back(), fmt::format("solid.clamp[{}].", i));
+        loads();
+        for (int i = 0; i < document_.count("solid.track"); ++i) {
+            Track& track = solid_.tracks.emplace_back();
+            document_.take(fmt::format("solid.track[{}].name", i), track.name);
+            document_.take(fmt::format("solid.track[{}].point", i), track.point);
+        }
+    }
+
+  private:
+    template <class E, std::size_t n>
+    void choose(const std::string& key, E& target, const Words<E, n>& meanings) {
+        std::string word;
+        if (!document_.take(key, word)) return;
+        for (const auto& [name, value] : meanings)
+            if (name == word) target = value;
+    }
+
+    void path(const std::string& key, std::filesystem::path& target) const {
+        if (std::string given; document_.take(key, given))
+            target = (scene_.file.parent_path() / given).lexically_normal();
+    }
+
+    void box() {
+        solid_.box.emplace();
+        document_.take("solid.box.min", solid_.box->min);
+        document_.take("solid.box.max", solid_.box->max);
+        document_.take("solid.box.order", solid_.element_order);
+        std::vector<int> counts;
+        if (!document_.take("solid.box.elements", counts)) return;
+        if (counts.size() != std::size_t(scene_.dimension)) {
+            complaints_.add(
+                "solid.box.elements",
+                fmt::format("{} counts in a scene of {} dimensions", counts.size(), scene_.dimension),
+                scene_.dimension == 2 ? "elements = [along x, along y]" : "elements = [along x, along y, along z]");
+            return;
+        }
+        std::copy(counts.begin(), counts.end(), solid_.elements.begin());
+    }
+
+    void material(const std::string& at, solid::Material& material) {
+        choose(at + ".law", material.law, material_law_words);
+        document_.take(at + ".density", material.density);
+        document_.take(at + ".youngs_modulus", material.youngs_modulus);
+        document_.take(at + ".poissons_ratio", material.poissons_ratio);
+        document_.take(at + ".c10", material.c10);
+        document_.take(at + ".c01", material.c01);
+        document_.take(at + ".bulk_modulus", material.bulk_modulus);
+    }
+
+    void scheme() {
+        std::string name;
+        if (document_.take("solid.scheme.name", name)) {
+            solid_.is_static = name == "static";
+            choose("solid.scheme.name", solid_.scheme, solid_scheme_words);
+        }
+        document_.take("solid.scheme.alpha", solid_.alpha);
+        if (solid_.is_static) solid_.step = scene_.end_time;
+        document_.take("solid.scheme.step", solid_.step);
+    }
+
+    void clamp(Clamp& clamp, const std::string& at) {
+        const std::vector<std::string> directions =
+            scene_.dimension == 2 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
+        document_.take(at + "set", clamp.set);
+        std::vector<std::string> fixed = directions;
+        document_.take(at + "fixed", fixed);
+        bool known = !fixed.empty();
+        for (const std::string& axis : fixed) {
+            const auto found = std::find(directions.begin(), directions.end(), axis);
+            if (found == directions.end())
+                known = false;
+            else
+                clamp.fixed[std::size_t(found - directions.begin())] = true;
+        }
+        if (known) return;
+        if (scene_.dimension == 2)
+            complaints_.add(at + "fixed", "`fixed` must name \"x\", \"y\" or both",
+                            "fixed = [\"x\", \"y\"] holds the nodes where they are");
+        else
+            complaints_.add(at + "fixed", "`fixed` must name some of \"x\", \"y\" and \"z\"",
+                            "fixed = [\"x\", \"y\", \"z\"] holds the nodes where they are");
+    }
+
+    void factor(const std::string& at, LoadHistory& history) {
+        document_.take(at + "factor", history.formula);
+        path(at + "table", history.table);
+    }
+
+    void loads() {
+        for (int i = 0; i < document_.count("solid.traction"); ++i) {
+            TractionScene& traction = solid_.tractions.emplace_back();
+            const std::string at = fmt::format("solid.traction[{}].", i);
+            document_.take(at + "surface", traction.surface);
+            document_.take(at + "value", traction.value);
+            factor(at, traction.factor);
+        }
+        for (int i = 0; i < document_.count("solid.force"); ++i) {
+            ForceScene& force = solid_.forces.emplace_back();
+            const std::string at = fmt::format("solid.force[{}].", i);
+            document_.take(at + "set", force.set);
+            if (Point point; document_.take(at + "point", point)) force.point = point;
+            document_.take(at + "value", force.value);
+            factor(at, force.factor);
+        }
+    }
+
+    const CheckedDocument& document_;
+    Complaints& complaints_;
+    const Scene& scene_;
+    SolidScene& solid_;
+};
+
+}  // namespace
+
+void read_solid(const CheckedDocument& document, Complaints& complaints, Scene& scene) {
+    SolidReader(document, complaints, scene).everything();
+}
+
+}  // namespace aquagraph::io
