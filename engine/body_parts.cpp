@@ -10,7 +10,8 @@
 #include "io/expression.hpp"
 #include "io/scene_formulas.hpp"
 #include "io/scene_reader.hpp"
-#include "physics/solid/gmsh_mesh.hpp"
+#include "physics/solid/readers/calculix.hpp"
+#include "physics/solid/readers/gmsh.hpp"
 #include "tasks/parallel_loop.hpp"
 #include "tasks/stepping.hpp"
 #include "tasks/structural_step.hpp"
@@ -25,13 +26,15 @@ solid::Mesh<D> read_mesh(const io::Scene& scene) {
     std::ifstream file(path);
     if (!file)
         throw io::scene_error(scene, "solid.mesh", "the mesh file " + path.string() + " cannot be opened",
-                              "give the path of a Gmsh 4.1 file, relative to the scene");
+                              "give the path of a Gmsh (.msh) or CalculiX (.inp) file, relative to the scene");
     try {
-        if constexpr (D == 2) return solid::read_gmsh(file, path.string());
+        if (path.extension() == ".inp") return solid::read_calculix<D>(file, path.string());
+        return solid::read_gmsh<D>(
+            file, path.string(),
+            scene.solid->element_order == 1 ? solid::MeshOrder::linear : solid::MeshOrder::quadratic);
     } catch (const solid::MeshError& error) {
         throw io::scene_error(scene, "solid.mesh", error.what(), "mend the mesh, or mesh a box with [solid.box]");
     }
-    throw io::scene_error(scene, "solid.mesh", "meshes in three dimensions cannot be read yet", "mesh a [solid.box]");
 }
 
 template <int D>
@@ -102,8 +105,9 @@ solid::Solver<D> make_solid(const io::Scene& scene) {
     const io::SolidScene& from = *scene.solid;
     solid::Options<D> options;
     options.material = from.material;
-    options.parts = from.parts;
+    for (const io::PartScene& part : from.parts) options.parts.push_back({part.set, part.material});
     options.plane = from.plane;
+    options.integration = from.integration;
     options.gravity = scene.gravity.as<D>();
     options.scheme = from.scheme;
     options.alpha = from.alpha;

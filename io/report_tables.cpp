@@ -59,7 +59,7 @@ const char* law_text(solid::MaterialLaw law) {
     return "Saint-Venant–Kirchhoff";
 }
 
-void material_rows(std::vector<Row>& rows, const solid::Material& material, const std::string& where) {
+void material_rows(std::vector<Row>& rows, const MaterialScene& material, const std::string& where) {
     rows.emplace_back("law" + where, law_text(material.law));
     rows.emplace_back("density ρ" + where, fmt::format("{:g} kg/m³", material.density));
     if (material.law == solid::MaterialLaw::mooney_rivlin) {
@@ -68,7 +68,10 @@ void material_rows(std::vector<Row>& rows, const solid::Material& material, cons
         rows.emplace_back("bulk modulus κ" + where, quantity(material.bulk_modulus, "Pa"));
         return;
     }
-    rows.emplace_back("Young's modulus E" + where, quantity(material.youngs_modulus, "Pa"));
+    if (material.law == solid::MaterialLaw::uniaxial_curve)
+        rows.emplace_back("curve" + where, material.curve_file.filename().string());
+    else
+        rows.emplace_back("Young's modulus E" + where, quantity(material.youngs_modulus, "Pa"));
     rows.emplace_back("Poisson's ratio ν" + where, fmt::format("{:g}", material.poissons_ratio));
 }
 
@@ -91,7 +94,7 @@ std::string solid_table(const SolidScene& solid, int dimension) {
     }
     if (dimension == 2) rows.emplace_back("plane", std::string(word(plane_words, solid.plane)));
     material_rows(rows, solid.material, "");
-    for (const solid::Part& part : solid.parts) material_rows(rows, part.material, " of " + part.set);
+    for (const PartScene& part : solid.parts) material_rows(rows, part.material, " of " + part.set);
     if (solid.is_static)
         rows.emplace_back("time scheme", "static: an equilibrium at the end of every step");
     else

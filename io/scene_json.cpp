@@ -149,10 +149,12 @@ Json to_json(const FluidScene& fluid, int dimension) {
     return json;
 }
 
-Json to_json(const solid::Material& material) {
+Json to_json(const MaterialScene& material) {
     Json json = {{"law", word(material_law_words, material.law)}, {"density", material.density}};
     if (material.law == solid::MaterialLaw::mooney_rivlin)
         json.update({{"c10", material.c10}, {"c01", material.c01}, {"bulk_modulus", material.bulk_modulus}});
+    else if (material.law == solid::MaterialLaw::uniaxial_curve)
+        json.update({{"curve", material.curve_file.filename().string()}, {"poissons_ratio", material.poissons_ratio}});
     else
         json.update({{"youngs_modulus", material.youngs_modulus}, {"poissons_ratio", material.poissons_ratio}});
     return json;
@@ -169,12 +171,13 @@ Json to_json(const SolidScene& solid, int dimension) {
     if (solid.box) {
         json["box"] = to_json(*solid.box);
         json["box"]["elements"] = std::vector(solid.elements.begin(), solid.elements.begin() + dimension);
-        json["box"]["order"] = solid.element_order;
     } else {
         json["mesh"] = solid.mesh.filename().string();
     }
+    json["order"] = solid.element_order;
+    json["integration"] = word(integration_points_words, solid.integration);
     json["material"] = to_json(solid.material);
-    for (const solid::Part& part : solid.parts) {
+    for (const PartScene& part : solid.parts) {
         json["part"].push_back(to_json(part.material));
         json["part"].back()["set"] = part.set;
     }

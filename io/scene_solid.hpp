@@ -43,14 +43,25 @@ struct ForceScene {
     LoadHistory factor;
 };
 
+// A material, and the file that its measured curve came from.
+struct MaterialScene : solid::Material {
+    std::filesystem::path curve_file;  // absolute once read
+};
+
+struct PartScene {
+    std::string set;
+    MaterialScene material;
+};
+
 struct SolidScene {
     std::string name = "solid";
-    std::optional<Box> box;          // either a box, meshed with so many elements along x, y (and z) …
-    std::array<int, 3> elements{};   //
-    int element_order = 2;           // … with nodes in the middle of the edges (2) or without (1) …
-    std::filesystem::path mesh;      // … or a file (absolute once read)
-    solid::Material material;        //
-    std::vector<solid::Part> parts;  // element sets of other materials
+    std::optional<Box> box;         // either a box, meshed with so many elements along x, y (and z) …
+    std::array<int, 3> elements{};  //
+    std::filesystem::path mesh;     // … or a file, .msh or .inp (absolute once read)
+    int element_order = 2;          // with nodes in the middle of the edges (2) or without (1)
+    MaterialScene material;         //
+    std::vector<PartScene> parts;   // element sets of other materials
+    solid::Integration integration = solid::Integration::reduced;
     solid::PlaneCondition plane = solid::PlaneCondition::strain;
     solid::Scheme scheme = solid::Scheme::hht;
     bool is_static = false;     // each step an equilibrium, instead of a motion

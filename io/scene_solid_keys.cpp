@@ -35,7 +35,22 @@ using K = KeyKind;
 constexpr auto keys = std::to_array<SceneKey>({
     {"solid", "name", K::text, false, "", any, "", "solid", "letters, digits and _, beginning with a letter"},
     {"solid", "mesh", K::text, false, "", any, "", "none",
-     "Gmsh 4.1 file, seen from the scene's folder; either this or [solid.box]"},
+     "Gmsh file (.msh, 4.1 or 2.2, ASCII) or CalculiX or Abaqus deck (.inp), seen from the scene's folder; either this "
+     "or "
+     "[solid.box]. Physical groups, NSET, ELSET and SURFACE become sets of these names"},
+    {"solid",
+     "order",
+     K::integer,
+     false,
+     "",
+     {1, 2, false, false},
+     "",
+     "2",
+     "of boxes and Gmsh files. 2: elements of 8 nodes, in three dimensions 20 or 10, made where the mesh has none on "
+     "its "
+     "edges; 1: of 4 or 8, with enhanced strains so that they do not lock"},
+    {"solid", "integration", K::choice, false, "", any, "reduced full", "reduced",
+     "Gauss points of quadratic elements: 2 each way, which do not lock, or 3"},
     {"solid", "plane", K::choice, false, "", any, "strain stress", "strain",
      "what holds across the plane, in two dimensions"},
     {"solid", "static_start", K::boolean, false, "", any, "", "false",
@@ -47,23 +62,13 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"solid.box", "max", K::point, true, "m", any, "", "", "upper right corner"},
     {"solid.box", "elements", K::counts, true, "", at_least_one, "", "",
      "number along x, along y and, in three dimensions, along z"},
-    {"solid.box",
-     "order",
-     K::integer,
-     false,
-     "",
-     {1, 2, false, false},
-     "",
-     "2",
-     "2: elements of 8 nodes, in three dimensions 20; 1: of 4 or 8, with enhanced strains so that they do not lock"},
-
-    {"solid.material", "law", K::choice, false, "", any, "saint_venant_kirchhoff linear neo_hookean mooney_rivlin",
-     "saint_venant_kirchhoff",
+    {"solid.material", "law", K::choice, false, "", any,
+     "saint_venant_kirchhoff linear neo_hookean mooney_rivlin uniaxial_curve", "saint_venant_kirchhoff",
      "stress from strain: the first for large rotations and small strains, linear for small "
-     "displacements only, the others for rubber"},
+     "displacements only, the others for rubber, the last from a measured curve"},
     {"solid.material", "density", K::number, true, "kg/m³", positive, "", "", "ρ of the body at rest"},
-    {"solid.material", "youngs_modulus", K::number, false, "Pa", positive, "", "needed but for mooney_rivlin",
-     "E at small strain"},
+    {"solid.material", "youngs_modulus", K::number, false, "Pa", positive, "",
+     "needed but for mooney_rivlin and uniaxial_curve", "E at small strain"},
     {"solid.material",
      "poissons_ratio",
      K::number,
@@ -77,15 +82,18 @@ constexpr auto keys = std::to_array<SceneKey>({
      "C10 of W = C10 (Ī1 - 3) + C01 (Ī2 - 3) + κ/2 (J - 1)²"},
     {"solid.material", "c01", K::number, false, "Pa", not_negative, "", "0", "C01; the shear modulus is 2 (C10 + C01)"},
     {"solid.material", "bulk_modulus", K::number, false, "Pa", positive, "", "needed for mooney_rivlin", "κ"},
+    {"solid.material", "curve", K::text, false, "", any, "", "needed for uniaxial_curve",
+     "file of two columns, seen from the scene's folder: strain, and force per area at rest [Pa] of a strip that is "
+     "pulled"},
 
     {"solid.part", "set", K::text, true, "", any, "", "", "element set: a physical group of a mesh"},
-    {"solid.part", "law", K::choice, false, "", any, "saint_venant_kirchhoff linear neo_hookean mooney_rivlin",
-     "saint_venant_kirchhoff",
+    {"solid.part", "law", K::choice, false, "", any,
+     "saint_venant_kirchhoff linear neo_hookean mooney_rivlin uniaxial_curve", "saint_venant_kirchhoff",
      "stress from strain: the first for large rotations and small strains, linear for small "
-     "displacements only, the others for rubber"},
+     "displacements only, the others for rubber, the last from a measured curve"},
     {"solid.part", "density", K::number, true, "kg/m³", positive, "", "", "ρ of the body at rest"},
-    {"solid.part", "youngs_modulus", K::number, false, "Pa", positive, "", "needed but for mooney_rivlin",
-     "E at small strain"},
+    {"solid.part", "youngs_modulus", K::number, false, "Pa", positive, "",
+     "needed but for mooney_rivlin and uniaxial_curve", "E at small strain"},
     {"solid.part",
      "poissons_ratio",
      K::number,
@@ -99,6 +107,9 @@ constexpr auto keys = std::to_array<SceneKey>({
      "C10 of W = C10 (Ī1 - 3) + C01 (Ī2 - 3) + κ/2 (J - 1)²"},
     {"solid.part", "c01", K::number, false, "Pa", not_negative, "", "0", "C01; the shear modulus is 2 (C10 + C01)"},
     {"solid.part", "bulk_modulus", K::number, false, "Pa", positive, "", "needed for mooney_rivlin", "κ"},
+    {"solid.part", "curve", K::text, false, "", any, "", "needed for uniaxial_curve",
+     "file of two columns, seen from the scene's folder: strain, and force per area at rest [Pa] of a strip that is "
+     "pulled"},
 
     {"solid.scheme", "name", K::choice, false, "", any, "hht newmark static", "hht",
      "Hilber–Hughes–Taylor, or Newmark with the same β and γ; static: an equilibrium at the end of every step, without "

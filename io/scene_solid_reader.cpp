@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/comparison.hpp"
 #include "io/scene_words.hpp"
 
 namespace aquagraph::io {
@@ -19,12 +20,14 @@ class SolidReader {
         path("solid.mesh", solid_.mesh);
         if (document_.count("solid.box")) box();
         choose("solid.plane", solid_.plane, plane_words);
+        choose("solid.integration", solid_.integration, integration_points_words);
+        document_.take("solid.order", solid_.element_order);
         document_.take("solid.static_start", solid_.static_start);
         document_.take("solid.wet", solid_.wet);
         material("solid.material", solid_.material);
         for (int i = 0; i < document_.count("solid.part"); ++i) {
             const std::string at = fmt::format("solid.part[{}]", i);
-            solid::Part& part = solid_.parts.emplace_back();
+            PartScene& part = solid_.parts.emplace_back();
             document_.take(at + ".set", part.set);
             material(at, part.material);
         }
@@ -57,7 +60,6 @@ class SolidReader {
         solid_.box.emplace();
         document_.take("solid.box.min", solid_.box->min);
         document_.take("solid.box.max", solid_.box->max);
-        document_.take("solid.box.order", solid_.element_order);
         std::vector<int> counts;
         if (!document_.take("solid.box.elements", counts)) return;
         if (counts.size() != std::size_t(scene_.dimension)) {
@@ -70,7 +72,7 @@ class SolidReader {
         std::copy(counts.begin(), counts.end(), solid_.elements.begin());
     }
 
-    void material(const std::string& at, solid::Material& material) {
+    void material(const std::string& at, MaterialScene& material) {
         choose(at + ".law", material.law, material_law_words);
         document_.take(at + ".density", material.density);
         document_.take(at + ".youngs_modulus", material.youngs_modulus);
@@ -78,6 +80,18 @@ class SolidReader {
         document_.take(at + ".c10", material.c10);
         document_.take(at + ".c01", material.c01);
         document_.take(at + ".bulk_modulus", material.bulk_modulus);
+        path(at + ".curve", material.curve_file);
+        if (material.curve_file.empty()) return;
+        const std::string help = "two columns of numbers, strain and force per area at rest [Pa]";
+        try {
+            Compare columns;
+            columns.file = material.curve_file;
+            const Curve curve = read_reference(columns);
+            for (std::size_t k = 0; k < curve.time.size(); ++k)
+                material.curve.push_back({curve.time[k], curve.value[k]});
+        } catch (const std::exception& error) {
+            complaints_.add(at + ".curve", fmt::format("the file cannot be used: {}", error.what()), help);
+        }
     }
 
     void scheme() {

@@ -72,35 +72,41 @@ class SolidValidation {
                                     "min is the lower left corner, max the upper right one");
                     break;
                 }
-        if (scene_.fluid && solid_.element_order == 1 && !complaints_.touch("solid.box.order"))
-            complaints_.add("solid.box.order", "a body in water needs elements with nodes on their edges",
+        if (scene_.fluid && solid_.element_order == 1 && !complaints_.touch("solid.order"))
+            complaints_.add("solid.order", "a body in water needs elements with nodes on their edges",
+                            "take `order` out");
+        if (solid_.mesh.extension() == ".inp" && given("solid.order"))
+            complaints_.add("solid.order", "the deck says itself whether its elements are linear or quadratic",
                             "take `order` out");
         if (mesh && !complaints_.touch("solid.mesh") && !std::filesystem::exists(solid_.mesh))
             complaints_.add("solid.mesh",
                             fmt::format("the mesh {} does not exist", solid_.mesh.lexically_normal().string()),
-                            "a Gmsh 4.1 file; the path is seen from the scene's folder");
+                            "a Gmsh (.msh) or CalculiX (.inp) file; the path is seen from the scene's folder");
     }
 
     // Which numbers a law needs, and which it does not know.
-    void material(const std::string& at, const solid::Material& material) {
+    void material(const std::string& at, const MaterialScene& material) {
         if (complaints_.touch(at)) return;
-        const bool rubber = material.law == solid::MaterialLaw::mooney_rivlin;
+        const bool rubber = material.law == solid::MaterialLaw::mooney_rivlin,
+                   measured = material.law == solid::MaterialLaw::uniaxial_curve;
+        const std::vector<std::string_view> takes =
+            rubber     ? std::vector<std::string_view>{"c10", "bulk_modulus"}
+            : measured ? std::vector<std::string_view>{"curve", "poissons_ratio"}
+                       : std::vector<std::string_view>{"youngs_modulus", "poissons_ratio"};
         const std::string heading = at == "solid.material" ? "[solid.material]" : "[[solid.part]]";
         const std::string law(word(material_law_words, material.law));
-        for (const char* key : {"youngs_modulus", "poissons_ratio", "c10", "c01", "bulk_modulus"}) {
-            const bool mooney_rivlin = key[0] == 'c' || key[0] == 'b', here = given(at + "." + key);
-            if (here && mooney_rivlin != rubber)
-                complaints_.add(at + "." + key, fmt::format("`{}` does not belong to the law {}", key, law),
-                                rubber ? "it takes density, c10, c01 and bulk_modulus"
-                                       : "it takes density, youngs_modulus and poissons_ratio");
-            if (!here && mooney_rivlin == rubber && std::string_view(key) != "c01")
-                complaints_.add(at, fmt::format("`{}` is missing in {}", key, heading),
-                                fmt::format("the law {} takes density, {}", law,
-                                            rubber ? "c10, c01 (0 if not given) and bulk_modulus"
-                                                   : "youngs_modulus and poissons_ratio"));
+        const std::string help = fmt::format("the law {} takes density, {}", law,
+                                             rubber     ? "c10, c01 (0 if not given) and bulk_modulus"
+                                             : measured ? "curve and poissons_ratio"
+                                                        : "youngs_modulus and poissons_ratio");
+        for (const char* key : {"youngs_modulus", "poissons_ratio", "c10", "c01", "bulk_modulus", "curve"}) {
+            const bool here = given(at + "." + key), known = std::find(takes.begin(), takes.end(), key) != takes.end();
+            if (here && !known && !(rubber && std::string_view(key) == "c01"))
+                complaints_.add(at + "." + key, fmt::format("`{}` does not belong to the law {}", key, law), help);
+            if (!here && known) complaints_.add(at, fmt::format("`{}` is missing in {}", key, heading), help);
         }
         if (scene_.dimension == 2 && solid_.plane == solid::PlaneCondition::stress &&
-            (rubber || material.law == solid::MaterialLaw::neo_hookean))
+            (rubber || measured || material.law == solid::MaterialLaw::neo_hookean))
             complaints_.add(at, fmt::format("the law {} is there in plane strain only", law),
                             "take plane = \"strain\" or the law saint_venant_kirchhoff");
     }

@@ -32,11 +32,14 @@ inline constexpr Words<fluid::Transport, 3> transport_words{
 
 inline constexpr Words<Slip, 3> slip_words{{{"free", Slip::free}, {"none", Slip::none}, {"symmetry", Slip::symmetry}}};
 
-inline constexpr Words<solid::MaterialLaw, 4> material_law_words{
+inline constexpr Words<solid::MaterialLaw, 5> material_law_words{
     {{"saint_venant_kirchhoff", solid::MaterialLaw::saint_venant_kirchhoff},
      {"linear", solid::MaterialLaw::linear},
      {"neo_hookean", solid::MaterialLaw::neo_hookean},
-     {"mooney_rivlin", solid::MaterialLaw::mooney_rivlin}}};
+     {"mooney_rivlin", solid::MaterialLaw::mooney_rivlin},
+     {"uniaxial_curve", solid::MaterialLaw::uniaxial_curve}}};
+inline constexpr Words<solid::Integration, 2> integration_points_words{
+    {{"reduced", solid::Integration::reduced}, {"full", solid::Integration::full}}};
 inline constexpr Words<solid::PlaneCondition, 2> plane_words{
     {{"strain", solid::PlaneCondition::strain}, {"stress", solid::PlaneCondition::stress}}};
 inline constexpr Words<solid::Scheme, 2> solid_scheme_words{

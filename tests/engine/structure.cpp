@@ -125,10 +125,10 @@ std::string without(const std::string& text, std::string_view part) {
 
 TEST_CASE("a bar under tension is Hooke's, in the plane and in space, with either order of elements") {
     for (const std::string& scene : {bar_2d, bar_3d})
-        for (const char* order : {"", "order = 1\n"}) {
+        for (const char* order : {"", "order = 1\n", "integration = \"full\"\n"}) {
             CAPTURE(scene);
             CAPTURE(order);
-            const Finished run(with(scene, "[solid.material]", order + std::string("[solid.material]")));
+            const Finished run(with(scene, "[solid]\n", "[solid]\n" + std::string(order)));
             REQUIRE(run.code == engine::success);
             const io::History history = run.results.history();
             REQUIRE(history.rows() == 2);  // before the load, and under it
@@ -148,6 +148,21 @@ TEST_CASE("Mooney-Rivlin rubber under a small pull has the modulus 6 (C10 + C01)
     REQUIRE(run.code == engine::success);
     const double G = 3e6, K = 3e9, E = 9 * K * G / (3 * K + G), strain = 1e4 / E;
     CHECK(run.results.history().column("tip_x").back() == doctest::Approx(strain).epsilon(2 * strain));
+}
+
+TEST_CASE("a measured curve: a strip pulled as far as its table says") {
+    ScratchFolder folder;
+    folder.write("curve.csv", "strain,stress[Pa]\n0,0\n0.1,0.8e4\n0.2,1.4e4\n0.4,2.2e4\n");
+    std::string scene =
+        with(bar_3d, "law = \"linear\"\ndensity = 1000.0\nyoungs_modulus = 1.0e7\npoissons_ratio = 0.3",
+             "law = \"uniaxial_curve\"\ndensity = 1000.0\ncurve = \"curve.csv\"\npoissons_ratio = 0.49");
+    scene = with(scene, "value = [1.0e4, 0.0, 0.0]", "value = [1.4e4, 0.0, 0.0]");
+    const io::Scene read = io::read_scene(folder.write("scene.toml", scene));
+    std::ostringstream out, err;
+    REQUIRE(engine::run(read, {.folder = folder / "results", .trace = {}, .threads = 1, .quiet = true}, out, err) ==
+            engine::success);
+    CHECK(io::read_history(folder / "results" / "history.csv").column("tip_x").back() ==
+          doctest::Approx(0.2).epsilon(0.02));
 }
 
 TEST_CASE("steps of a static run follow the loads in time: a table and a formula of the same curve") {
@@ -241,6 +256,40 @@ TEST_CASE("released from its equilibrium a beam swings with twice its deflection
     CHECK(tip[100] < -0.9 * tip[0]);
     CHECK(tip[200] > 0.9 * tip[0]);
     CHECK(std::abs(tip[50]) < 0.15 * tip[0]);
+}
+
+TEST_CASE("parts of a mesh file of other materials: springs in a row, by a Gmsh file and by a deck") {
+    // Two unit squares side by side, the second one twice as stiff; pulled at the right.
+    const std::string nodes = "1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n";
+    const std::string gmsh =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n1 1 \"left\"\n1 2 \"right\"\n1 3 "
+        "\"bottom\"\n2 4 \"soft\"\n2 5 \"stiff\"\n$EndPhysicalNames\n$Nodes\n6\n" +
+        nodes +
+        "$EndNodes\n$Elements\n6\n1 1 2 1 1 1 4\n2 1 2 2 2 3 6\n3 1 2 3 3 1 2\n4 1 2 3 3 2 3\n5 3 2 "
+        "4 1 1 2 5 4\n6 3 2 5 2 2 3 6 5\n$EndElements\n";
+    const std::string deck =
+        "*NODE\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n*ELEMENT,TYPE=CPS4,ELSET=soft\n1,1,2,5,4\n"
+        "*ELEMENT,TYPE=CPS4,ELSET=stiff\n2,2,3,6,5\n*NSET,NSET=left\n1,4\n*NSET,NSET=bottom\n1,2,3\n"
+        "*SURFACE,NAME=right\nstiff,S2\n";
+    std::string scene = without(bar_2d, "[solid.box]\nmin = [0.0, 0.0]\nmax = [1.0, 0.1]\nelements = [4, 1]\n");
+    scene +=
+        "[[solid.part]]\nset = \"stiff\"\nlaw = \"linear\"\ndensity = 1000.0\nyoungs_modulus = 2.0e7\n"
+        "poissons_ratio = 0.3\n[[solid.track]]\nname = \"end\"\npoint = [2.0, 0.0]\n";
+    scene = with(scene, "poissons_ratio = 0.3\n[solid.scheme]", "poissons_ratio = 0.0\n[solid.scheme]");
+    scene = with(scene, "youngs_modulus = 2.0e7\npoissons_ratio = 0.3", "youngs_modulus = 2.0e7\npoissons_ratio = 0.0");
+    for (const char* name : {"body.msh", "body.inp"}) {
+        CAPTURE(name);
+        ScratchFolder folder;
+        folder.write("body.msh", gmsh);
+        folder.write("body.inp", deck);
+        const io::Scene read = io::read_scene(
+            folder.write("scene.toml", with(scene, "[solid]\n", "[solid]\nmesh = \"" + std::string(name) + "\"\n")));
+        std::ostringstream out, err;
+        REQUIRE(engine::run(read, {.folder = folder / "results", .trace = {}, .threads = 1, .quiet = true}, out, err) ==
+                engine::success);
+        const io::History history = io::read_history(folder / "results" / "history.csv");
+        CHECK(history.column("end_x").back() == doctest::Approx(1e-3 * 1.5).epsilon(1e-9));
+    }
 }
 
 TEST_CASE("a body that loses its balance is said so, and what was computed is kept") {

@@ -271,7 +271,7 @@ TEST_CASE("the solid's shape and sets") {
     expect("[solid.box]\nmin = [1.0, 0.0]\nmax = [1.1, 0.5]\nelements = [1, 5]\n", "", 17, 1, "[solid] has no shape",
            "mesh = ");
     expect("wet = [\"left\"]\n[solid.box]\nmin = [1.0, 0.0]\nmax = [1.1, 0.5]\nelements = [1, 5]\n",
-           "wet = [\"left\"]\nmesh = \"none.msh\"\n", 19, 8, "none.msh does not exist", "Gmsh 4.1");
+           "wet = [\"left\"]\nmesh = \"none.msh\"\n", 19, 8, "none.msh does not exist", "a Gmsh (.msh)");
     expect("wet = [\"left\"]", "wet = []", 18, 7, "`wet` is empty", "name the surfaces");
     expect("wet = [\"left\"]", "", 17, 1, "no surface of the solid touches the water", "name the surfaces");
     expect("wet = [\"left\"]", "wet = [\"letf\"]", 18, 8, "the box has no surface \"letf\"", "did you mean \"left\"?");
@@ -334,7 +334,7 @@ TEST_CASE("a solid without water") {
     expect("[coupling]", load + "[coupling]", 32, 1, "a body in water bears the water's load alone", "");
     expect("[coupling]", step + "[coupling]", 33, 8, "with water the step of the solid is the coupling cycle", "");
     expect("elements = [1, 5]", "elements = [1, 5, 2]", 22, 12, "3 counts in a scene of 2 dimensions", "along y]");
-    expect("elements = [1, 5]", "elements = [1, 5]\norder = 1", 23, 9, "needs elements with nodes on their edges", "");
+    expect("wet = [\"left\"]", "wet = [\"left\"]\norder = 1", 19, 9, "needs elements with nodes on their edges", "");
 }
 
 TEST_CASE("parts that a scene needs together") {

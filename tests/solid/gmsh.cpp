@@ -1,5 +1,5 @@
 // Gmsh files: two elements side by side in the formats that are read, and one test for each thing that is refused.
-#include "physics/solid/gmsh_mesh.hpp"
+#include "physics/solid/readers/gmsh.hpp"
 
 #include <doctest/doctest.h>
 
@@ -113,7 +113,7 @@ $EndElements
 
 Mesh<2> read(const std::string& text) {
     std::istringstream input(text);
-    return read_gmsh(input, "plate.msh");
+    return read_gmsh<2>(input, "plate.msh");
 }
 
 std::string with(std::string text, const std::string& old_part, const std::string& new_part) {
@@ -152,6 +152,18 @@ TEST_CASE("4-node quadrilaterals become 8-node ones with shared straight sides")
     CHECK_THROWS_AS(mesh.surface("body of rubber"), std::invalid_argument);
 }
 
+TEST_CASE("4-node quadrilaterals stay so where linear elements are asked for") {
+    std::istringstream input(linear);
+    const Mesh<2> mesh = read_gmsh<2>(input, "plate.msh", MeshOrder::linear);
+    CHECK(mesh.nodes.size() == 6);
+    CHECK(mesh.elements[0].size() == 4);
+    CHECK(mesh.surface("wet").size() == 2);
+    CHECK(mesh.element_set("body of rubber") == std::vector<ElementIndex>{0, 1});
+    std::istringstream curved(quadratic);
+    CHECK_THROWS_WITH_AS(read_gmsh<2>(curved, "plate.msh", MeshOrder::linear),
+                         doctest::Contains("leave `order = 1` out"), MeshError);
+}
+
 TEST_CASE("8-node quadrilaterals keep their curved sides") {
     const Mesh<2> mesh = read(quadratic);
     CHECK(mesh.nodes.size() == 13);
@@ -178,7 +190,7 @@ TEST_CASE("a mesh from a file is solved as the same mesh made here") {
 }
 
 TEST_CASE("what cannot be read is refused: version, binary, not a mesh") {
-    refused(with(linear, "4.1 0 8", "2.2 0 8"), "line 2: this is version 2.2");
+    refused(with(linear, "4.1 0 8", "3.0 0 8"), "line 2: this is version 3.0");
     refused(with(linear, "4.1 0 8", "4.1 1 8"), "Mesh.Binary=0");
     refused("hello\n", "line 1: a section");
     refused("$Nodes\n", "$MeshFormat must come first");
