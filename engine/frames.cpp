@@ -42,28 +42,33 @@ io::CellType cell_type(const solid::Element& element) {
 
 }  // namespace
 
+namespace {
+
 template <int D>
-void write_solid_frame(const std::filesystem::path& file, const solid::Solver<D>& solver, double time) {
-    const std::size_t nodes = solver.mesh().nodes.size();
-    using Components = std::array<std::vector<double>, D>;
-    const auto components = [&](std::span<const double> values) {
-        Components parts;
-        for (std::size_t d = 0; d < D; ++d)
-            for (std::size_t n = 0; n < nodes; ++n) parts[d].push_back(values[D * n + d]);
-        return parts;
-    };
-    const Components x = components(solver.positions()), u = components(solver.displacements()),
-                     v = components(solver.velocities());
-    std::vector<double> stress(solver.mesh().elements.size());
-    solver.element_stress(stress);
+using Components = std::array<std::vector<double>, D>;
+
+template <int D>
+Components<D> components(std::span<const double> interleaved) {
+    Components<D> parts;
+    for (std::size_t k = 0; k < interleaved.size(); ++k) parts[k % D].push_back(interleaved[k]);
+    return parts;
+}
+
+template <int D>
+io::VtkArray vector_array(const std::string& name, const Components<D>& parts) {
+    io::VtkArray array{name, {}};
+    for (const auto& part : parts) array.components.push_back(std::span<const double>(part));
+    return array;
+}
+
+// Fields at the nodes where they are now.
+template <int D>
+void write_on_nodes(const std::filesystem::path& file, const solid::Solver<D>& solver, double time,
+                    std::vector<io::VtkArray> point_arrays, std::vector<io::VtkArray> cell_arrays) {
+    const Components<D> x = components<D>(solver.positions());
     std::vector<std::int32_t> connectivity;
     for (const auto& element : solver.mesh().elements)
         connectivity.insert(connectivity.end(), element.begin(), element.end());
-    const auto vector = [](const std::string& name, const Components& parts) {
-        io::VtkArray array{name, {}};
-        for (const auto& part : parts) array.components.push_back(std::span<const double>(part));
-        return array;
-    };
     io::VtkFrame frame;
     frame.x = x[0];
     frame.y = x[1];
@@ -71,11 +76,32 @@ void write_solid_frame(const std::filesystem::path& file, const solid::Solver<D>
     frame.time = time;
     frame.cell_type = cell_type<D>(solver.mesh().elements.front());
     frame.connectivity = connectivity;
-    frame.point_arrays = {vector("displacement", u), vector("velocity", v)};
-    frame.cell_arrays = {{"von_mises_stress", {std::span<const double>(stress)}}};
+    frame.point_arrays = std::move(point_arrays);
+    frame.cell_arrays = std::move(cell_arrays);
     io::write_vtk_hdf(file, frame);
 }
 
+}  // namespace
+
+template <int D>
+void write_solid_frame(const std::filesystem::path& file, const solid::Solver<D>& solver, double time) {
+    const Components<D> u = components<D>(solver.displacements()), v = components<D>(solver.velocities());
+    std::vector<double> stress(solver.mesh().elements.size());
+    solver.element_stress(stress);
+    write_on_nodes(file, solver, time, {vector_array<D>("displacement", u), vector_array<D>("velocity", v)},
+                   {{"von_mises_stress", {std::span<const double>(stress)}}});
+}
+
+template <int D>
+void write_mode_frame(const std::filesystem::path& file, const solid::Solver<D>& solver, const solid::NaturalMode& mode,
+                      int number) {
+    const Components<D> shape = components<D>(mode.shape), u = components<D>(solver.displacements());
+    write_on_nodes(file, solver, number, {vector_array<D>("mode_shape", shape), vector_array<D>("displacement", u)},
+                   {});
+}
+
+template void write_mode_frame(const std::filesystem::path&, const solid::Solver<2>&, const solid::NaturalMode&, int);
+template void write_mode_frame(const std::filesystem::path&, const solid::Solver<3>&, const solid::NaturalMode&, int);
 template void write_solid_frame(const std::filesystem::path&, const solid::Solver<2>&, double);
 template void write_solid_frame(const std::filesystem::path&, const solid::Solver<3>&, double);
 template void write_fluid_frame(const std::filesystem::path&, const fluid::Fluid<2>&, double);

@@ -15,4 +15,9 @@ void write_fluid_frame(const std::filesystem::path& file, const fluid::Fluid<D>&
 template <int D>
 void write_solid_frame(const std::filesystem::path& file, const solid::Solver<D>& solver, double time);
 
+// A natural mode about the present state; `number` stands where frames have their time.
+template <int D>
+void write_mode_frame(const std::filesystem::path& file, const solid::Solver<D>& solver, const solid::NaturalMode& mode,
+                      int number);
+
 }  // namespace aquagraph::engine

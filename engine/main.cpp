@@ -4,6 +4,7 @@
 
 #include "engine/check.hpp"
 #include "engine/graph_command.hpp"
+#include "engine/modes_command.hpp"
 #include "engine/run.hpp"
 #include "engine/study.hpp"
 #include "engine/version.hpp"
@@ -44,6 +45,15 @@ int main(int argc, char** argv) {
     graph->add_option("scene", scene_file, "Scene file (TOML)")->required();
     graph->add_option("--out", drawing, "File for the DOT text (default: <scene name>.dot)");
 
+    engine::ModesOptions modes_options;
+    auto* modes = app.add_subcommand("modes", "Natural frequencies and shapes of a scene's body, without water");
+    modes->add_option("scene", scene_file, "Scene file (TOML)")->required();
+    modes->add_option("--set", overrides, set_help)->take_all()->allow_extra_args(false);
+    modes->add_option("--count", modes_options.count, "How many, from the lowest (default: 6)")
+        ->check(CLI::Range(1, 100000));
+    modes->add_option("--out", modes_options.folder, "Folder of results (default: results/<scene name>)");
+    modes->add_option("--threads", modes_options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+
     std::filesystem::path study_file;
     engine::StudyOptions study_options;
     auto* study = app.add_subcommand("study", "Run a matrix of scenes, resolutions and variants: what an error costs");
@@ -75,6 +85,7 @@ int main(int argc, char** argv) {
             engine::check(scene, check_threads, std::cout);
             return engine::success;
         }
+        if (modes->parsed()) return engine::modes(scene, modes_options, std::cout, std::cerr);
         if (graph->parsed()) {
             engine::draw_graph(scene, drawing.empty() ? std::filesystem::path(scene.name + ".dot") : drawing,
                                std::cout);

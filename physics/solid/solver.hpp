@@ -10,6 +10,7 @@
 // Arrays over nodes are interleaved: x and y (and z) of node 0, those of node 1, …: D × nodes numbers. SI units;
 // loads are those on the whole thickness [N].
 #pragma once
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -76,6 +77,14 @@ struct State {
     }
 };
 
+// A natural vibration about the present state.
+struct NaturalMode {
+    double eigenvalue = 0;                  // ω² [1/s²]; negative where the state is unstable
+    double frequency = 0;                   // ω/2π [Hz]; negative: of √-ω², growing instead of swinging
+    std::vector<double> shape;              // D × nodes, largest component 1
+    std::array<double, 3> mass_fraction{};  // of the whole mass that moves along x, y (and z): effective modal mass
+};
+
 template <int D>
 class Solver {
   public:
@@ -96,6 +105,11 @@ class Solver {
     // Throws ConvergenceError, leaving the solver as it was, and std::invalid_argument for sizes or dt out of range.
     // Bitwise the same for any loop. Allocates nothing, unless it factorises.
     void advance(double dt, std::span<const double> external_forces, BlockLoop loop);
+
+    // The lowest natural frequencies, ascending, and shapes about the present displacements, with the stiffness of
+    // large displacements there: prestress counts. Throws std::invalid_argument unless 1 <= count < free degrees of
+    // freedom, ConvergenceError if the search fails.
+    std::vector<NaturalMode> natural_modes(int count, BlockLoop loop);
 
     const Mesh<D>& mesh() const;
     const Options<D>& options() const;
