@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "engine/calculix_command.hpp"
 #include "engine/check.hpp"
 #include "engine/graph_command.hpp"
 #include "engine/modes_command.hpp"
@@ -54,6 +55,12 @@ int main(int argc, char** argv) {
     modes->add_option("--out", modes_options.folder, "Folder of results (default: results/<scene name>)");
     modes->add_option("--threads", modes_options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
 
+    std::filesystem::path deck_file;
+    auto* deck = app.add_subcommand("export-ccx", "Write a scene's body as an input deck of CalculiX");
+    deck->add_option("scene", scene_file, "Scene file (TOML)")->required();
+    deck->add_option("--set", overrides, set_help)->take_all()->allow_extra_args(false);
+    deck->add_option("--out", deck_file, "File (default: <scene name>.inp)");
+
     std::filesystem::path study_file;
     engine::StudyOptions study_options;
     auto* study = app.add_subcommand("study", "Run a matrix of scenes, resolutions and variants: what an error costs");
@@ -86,6 +93,11 @@ int main(int argc, char** argv) {
             return engine::success;
         }
         if (modes->parsed()) return engine::modes(scene, modes_options, std::cout, std::cerr);
+        if (deck->parsed()) {
+            engine::export_calculix(scene, deck_file.empty() ? std::filesystem::path(scene.name + ".inp") : deck_file,
+                                    std::cout);
+            return engine::success;
+        }
         if (graph->parsed()) {
             engine::draw_graph(scene, drawing.empty() ? std::filesystem::path(scene.name + ".dot") : drawing,
                                std::cout);
