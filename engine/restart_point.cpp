@@ -11,6 +11,7 @@
 #include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/scene_json.hpp"
+#include "io/scene_solid_files.hpp"
 
 namespace aquagraph::engine {
 
@@ -27,7 +28,8 @@ Json input_file(const std::filesystem::path& file) {
 
 Json input_files(const io::Scene& scene) {
     Json files = Json::object();
-    if (scene.solid && !scene.solid->mesh.empty()) files["solid.mesh"] = input_file(scene.solid->mesh);
+    if (scene.solid)
+        for (const auto& [key, file] : io::files_of(*scene.solid)) files[key] = input_file(file);
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const io::WallScene& wall = scene.walls[w];
         if (wall.stl) files[fmt::format("wall[{}].stl.file", w)] = input_file(wall.stl->file);

@@ -11,6 +11,7 @@
 #include "io/atomic_file.hpp"
 #include "io/scene_json.hpp"
 #include "io/scene_reader.hpp"
+#include "io/scene_solid_files.hpp"
 
 namespace aquagraph::engine {
 
@@ -37,7 +38,8 @@ std::string content_of(const io::Scene& scene, const std::string& program, int t
     hash.add(io::to_json(scene).dump());
     for (const io::Compare& compare : scene.comparisons)
         if (!compare.file.empty()) hash.add(io::read_file(compare.file));
-    if (scene.solid && !scene.solid->mesh.empty()) hash.add(io::read_file(scene.solid->mesh));
+    if (scene.solid)
+        for (const auto& [key, file] : io::files_of(*scene.solid)) hash.add(io::read_file(file));
     return hash.text();
 }
 

@@ -87,8 +87,9 @@ class SolidReader {
             Compare columns;
             columns.file = material.curve_file;
             const Curve curve = read_reference(columns);
-            for (std::size_t k = 0; k < curve.time.size(); ++k)
-                material.curve.push_back({curve.time[k], curve.value[k]});
+            for (std::size_t k = 0; k < curve.time.size(); ++k)  // from (0, 0), whether that is listed or not
+                if (k > 0 || curve.time[k] != 0 || curve.value[k] != 0)
+                    material.curve.push_back({curve.time[k], curve.value[k]});
         } catch (const std::exception& error) {
             complaints_.add(at + ".curve", fmt::format("the file cannot be used: {}", error.what()), help);
         }

@@ -300,7 +300,7 @@ TEST_CASE("laws and their numbers") {
     expect(numbers, "law = \"mooney_rivlin\"\ndensity = 1100.0\nc10 = 1e5\n", 23, 1,
            "`bulk_modulus` is missing in [solid.material]", "c01 (0 if not given)");
     expect(numbers, numbers + "c10 = 1e5\n", 27, 7, "`c10` does not belong to the law saint_venant_kirchhoff",
-           "it takes density, youngs_modulus");
+           "takes density, youngs_modulus");
     expect(numbers, "law = \"neo_hookean\"\n" + numbers + "[[solid.part]]\nset = \"belt\"\n" + numbers, 29, 7,
            "a box has no element sets", "physical groups");
 }

@@ -209,10 +209,10 @@ TEST_CASE("what cannot be used in space is refused, with the element and the rem
     refused(with(hexahedron, "1 2 3 4 5 6 7 8 9 12", "1 2 3 4 5 6 7 8 12 9"), "element 4 is inverted");
     refused(with(hexahedron, "2 3 7 6 10 19 14 18", "2 3 7 5 10 19 14 18"),
             "quadrilateral 3 of 'end' is not a side of an element");
-    refused(with(hexahedron, "2 16 2 2 1", "2 16 2 7 1"), "line 39: physical group 7 of dimension 2 has no name");
+    refused(with(hexahedron, "2 16 2 2 1", "2 16 2 7 1"), "line 37: physical group 7 of dimension 2 has no name");
     refused(with(hexahedron, "20\n1 0 0 0", "21\n77 5 5 5\n1 0 0 0"), "node 77 is dangling");
-    refused(with(hexahedron, "20 0 1 0.25", "20 0 1 nan"), "node 20");
-    refused(hexahedron.substr(0, hexahedron.find("4 17 2 1")), "line 40: the file ends where an element should follow");
+    refused(with(hexahedron, "20 0 1 0.25", "20 0 1 nan"), "line 32: cannot read a node");
+    refused(hexahedron.substr(0, hexahedron.find("4 17 2 1")), "line 38: the file ends where an element should follow");
     std::istringstream input(hexahedron);
     CHECK_THROWS_WITH_AS(read_gmsh<2>(input, "body.msh"), doctest::Contains("the scene is two-dimensional"), MeshError);
 }
