@@ -1,7 +1,6 @@
 #include "physics/solid/calculix_export.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -62,7 +61,7 @@ class DeckWriter {
         if (options_.scheme == Scheme::newmark && options_.alpha != 0 && !run_.is_static)
             throw std::invalid_argument(
                 "CalculiX has no Newmark scheme without weighted forces: take hht, or alpha = 0");
-        deck_.precision(std::numeric_limits<double>::max_digits10);
+        deck_.precision(13);  // ccx reads fields of twenty characters, a sign and an exponent among them
         deck_ << "*HEADING\n" << run_.title << "\n";
         nodes_and_elements();
         materials();

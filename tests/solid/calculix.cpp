@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -89,15 +90,17 @@ TEST_CASE("CalculiX: a cantilever bent by two thirds of its length; *ELASTIC wit
     CHECK(difference(solver.displacements(), by_ccx(space, soft<3>(), run)) < 1e-6);
 
     const Mesh<2> plane = box_mesh({0, 0}, {1, 0.1}, 8, 2);
-    run.loads = {{traction_forces(plane, "right", {0, 3e4}), {}}};
+    run.loads = {{traction_forces(plane, "right", {0, 3e4}, 1e-3), {}}};
     for (const PlaneCondition condition : {PlaneCondition::strain, PlaneCondition::stress}) {
         Options<2> options = soft<2>();
         options.plane = condition;
+        options.thickness = 1e-3;
         Solver<2> flat(plane, options);
         flat.solve_static(run.loads[0].forces, serial_loop);
         const double apart = difference(flat.displacements(), by_ccx(plane, options, run));
-        // ccx makes plane elements solid ones; in plane stress their thickness follows at their edges' nodes alone.
-        CHECK(apart < (condition == PlaneCondition::strain ? 1e-6 : 2e-3));
+        // ccx makes solid elements of plane ones: their thickness changes along them, which costs energy unless it is
+        // small.
+        CHECK(apart < (condition == PlaneCondition::strain ? 1e-6 : 1e-4));
     }
 }
 
@@ -118,7 +121,7 @@ TEST_CASE("CalculiX: a block of Mooney-Rivlin rubber, one of neo-Hookean, a body
     run.loads = {{traction_forces(mesh, "right", {1e6, 0, 5e5}), {}}};
     Solver<3> rubber(mesh, options);
     rubber.solve_static(run.loads[0].forces, serial_loop);
-    CHECK(rubber.displacements()[3 * std::size_t(mesh.node_set("right").back())] > 0.2);
+    CHECK(*std::max_element(rubber.displacements().begin(), rubber.displacements().end()) > 0.3);
     CHECK(difference(rubber.displacements(), by_ccx(mesh, options, run)) < 1e-6);
 
     options.material = soft<3>().material;
@@ -139,8 +142,10 @@ TEST_CASE("CalculiX: a beam in motion by Hilber, Hughes and Taylor") {
     run.step = 0.005;
     run.end = 0.25;
     run.print_every = 50;
-    run.loads = {{traction_forces(mesh, "right", {0, 0, 5e3}), {}},
-                 {traction_forces(mesh, "right", {0, 2e3, 0}), [](double t) { return std::min(1.0, 8 * t); }}};
+    // What grows begins after the first step, which takes its loads as constant here.
+    run.loads = {
+        {traction_forces(mesh, "right", {0, 0, 5e3}), {}},
+        {traction_forces(mesh, "right", {0, 2e3, 0}), [](double t) { return std::clamp(8 * (t - 0.005), 0.0, 1.0); }}};
     for (const Integration integration : {Integration::full, Integration::reduced}) {
         Options<3> options = soft<3>();
         options.integration = integration;
@@ -153,7 +158,7 @@ TEST_CASE("CalculiX: a beam in motion by Hilber, Hughes and Taylor") {
         }
         CHECK(solver.displacements()[3 * std::size_t(mesh.node_set("right").back()) + 2] > 0.05);
         const double apart = difference(solver.displacements(), by_ccx(mesh, options, run));
-        MESSAGE((integration == Integration::full ? "full" : "reduced"), " integration: ", apart);
+        CAPTURE(apart);
         // The mass of C3D20R is integrated with 2 × 2 × 2 points there, with 3 × 3 × 3 here.
         CHECK(apart < (integration == Integration::full ? 2e-5 : 1e-3));
     }
@@ -167,7 +172,9 @@ TEST_CASE("a deck that is written is read back as the mesh it came from") {
     std::stringstream deck;
     write_calculix(deck, mesh, soft<3>(), run);
     const Mesh<3> back = read_calculix<3>(deck, "deck.inp");
-    CHECK(back.nodes == mesh.nodes);
+    REQUIRE(back.nodes.size() == mesh.nodes.size());
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+        for (std::size_t d = 0; d < 3; ++d) CHECK(back.nodes[n][d] == doctest::Approx(mesh.nodes[n][d]).epsilon(1e-12));
     CHECK(back.elements == mesh.elements);
     CHECK(back.node_set("CLAMP1") == mesh.node_set("left"));
 }
