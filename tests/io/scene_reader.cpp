@@ -35,7 +35,9 @@ std::vector<std::string> toml_blocks(const std::string& markdown) {
 TEST_CASE("the shipped scenes are read") {
     for (const char* name :
          {"gate_2d/scene.toml", "gate_2d/scene_fast.toml", "gate_2d/scene_1mm.toml", "gate_2d/scene_thesis.toml",
-          "hydrostatic_plate/scene.toml", "hydrostatic_plate/scene_1cm.toml"}) {
+          "hydrostatic_plate/scene.toml", "hydrostatic_plate/scene_1cm.toml", "solid/cook/scene.toml",
+          "solid/cook/scene_incompressible.toml", "solid/cantilever/scene.toml", "solid/beam_modes/scene.toml",
+          "solid/turek_hron/csm1.toml", "solid/turek_hron/csm2.toml", "solid/turek_hron/csm3.toml"}) {
         CAPTURE(name);
         CHECK_NOTHROW(io::read_scene(benchmarks / name));
     }
