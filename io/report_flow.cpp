@@ -150,7 +150,9 @@ nlohmann::json flow_player(const Scene& scene, const FlowRecord& flow) {
     nlohmann::json field_json = nlohmann::json::array(), frames = nlohmann::json::array(),
                    walls = nlohmann::json::array();
     const auto offer = [&](Field field, const char* name, const char* unit) {
-        // A field that some frame lacks cannot be played.
+        // A field that some frame lacks cannot be played, and without particles there is none.
+        if (std::all_of(flow.frames().begin(), flow.frames().end(), [](const auto& frame) { return frame.x.empty(); }))
+            return;
         for (const FlowRecord::Frame& frame : flow.frames())
             if ((frame.*field).size() != frame.x.size()) return;
         fields.emplace_back(field, colour_range(flow, field));

@@ -228,7 +228,8 @@ TEST_CASE("a body alone in three dimensions leaves history, frames, summary and 
     const std::string report = run.results.report();
     CHECK(report.find("Motion") != std::string::npos);
     CHECK(report.find("20 nodes each") != std::string::npos);
-    CHECK(count(report, "\"walls\":[[") >= 3);  // ten quadrilaterals in every frame
+    CHECK(report.find("\"fields\":[]") != std::string::npos);  // no colours without water
+    CHECK(count(report, "\"walls\":[[") >= 3);                 // ten quadrilaterals in every frame
 }
 
 TEST_CASE("a body alone gives the same bits with one thread and with four") {
