@@ -109,9 +109,9 @@ Surface<3> solid_shape(const WallScene& wall, double spacing) {
 }
 
 template <int D>
-fluid::MotionLaw law_of(const auto& law, double size) {
-    if (law.constant) return fluid::ConstantRate{size, {law.ramp}};
-    return fluid::Harmonic{size, law.frequency, law.phase, {law.ramp}};
+TimeLaw law_of(const auto& law, double size) {
+    if (law.constant) return ConstantRate{size, {law.ramp}};
+    return Harmonic{size, law.frequency, law.phase, {law.ramp}};
 }
 
 }  // namespace
@@ -184,7 +184,7 @@ fluid::RigidMotion<D> rigid_motion(const MotionScene& scene, double end) {
 
     const MotionTable table = parse_motion_table(read_file(scene.table));
     const auto law = [&](const std::vector<double>& values) {
-        const fluid::TimeTable made(table.time, values);
+        const TimeTable made(table.time, values);
         if (!scene.hold && made.end() < end * (1 - 1e-9))
             throw std::invalid_argument(
                 fmt::format("the table ends at {} s, before the end of the run at {} s", made.end(), end));

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "physics/solid/constraints.hpp"
 #include "physics/solid/elements/dispatch.hpp"
 
 namespace aquagraph::solid {
@@ -62,7 +63,7 @@ void Assembly<D>::for_packs(std::size_t work_per_block, BlockLoop loop, const Bo
 template <int D>
 Assembly<D>::Assembly(const Mesh<D>& mesh, const Options<D>& options) {
     make_groups(mesh, options);
-    number_equations(mesh, options.clamps);
+    number_equations(mesh, options);
     list_node_elements(mesh);
     NodeGraph graph;
     {
@@ -107,6 +108,12 @@ void Assembly<D>::make_groups(const Mesh<D>& mesh, const Options<D>& options) {
         part.first_force = forces;
         part.first_matrix = matrices;
         part.first_pack = packs_;
+        const auto& elements = part.elements->members();
+        for (std::size_t p = 0; p < part.elements->packs(); ++p)
+            for (std::size_t a = 0; a < part.elements->node_count(); ++a)
+                for (std::size_t l = 0; l < lanes; ++l)
+                    part.connectivity.push_back(
+                        mesh.elements[std::size_t(elements[std::min(p * lanes + l, elements.size() - 1)])][a]);
         packs_ += part.elements->packs();
         forces += part.elements->packs() * part.elements->force_size();
         matrices += part.elements->packs() * part.elements->matrix_size();
@@ -117,16 +124,12 @@ void Assembly<D>::make_groups(const Mesh<D>& mesh, const Options<D>& options) {
 }
 
 template <int D>
-void Assembly<D>::number_equations(const Mesh<D>& mesh, const std::vector<Clamp<D>>& clamps) {
-    equation_of_.assign(D * mesh.nodes.size(), 0);
-    for (const Clamp<D>& clamp : clamps)
-        for (const NodeIndex node : mesh.node_set(clamp.set))
-            for (std::size_t i = 0; i < D; ++i)
-                if (clamp.fixed[i]) equation_of_[D * static_cast<std::size_t>(node) + i] = -1;
+void Assembly<D>::number_equations(const Mesh<D>& mesh, const Options<D>& options) {
+    const std::vector<bool> held = held_freedoms(mesh, options);
+    equation_of_.resize(held.size());
     for (std::size_t f = 0; f < equation_of_.size(); ++f) {
-        if (equation_of_[f] < 0) continue;
-        equation_of_[f] = static_cast<int>(freedoms_.size());
-        freedoms_.push_back(f);
+        equation_of_[f] = held[f] ? -1 : static_cast<int>(freedoms_.size());
+        if (!held[f]) freedoms_.push_back(f);
     }
 }
 
@@ -223,11 +226,7 @@ void Assembly<D>::build_pattern(const Mesh<D>& mesh, const NodeGraph& graph) {
 }
 
 template <int D>
-double Assembly<D>::internal_forces(std::span<const double> u, std::span<double> forces, BlockLoop loop) {
-    for_packs(force_work_per_block, loop, [&](const Part& part, std::size_t first, std::size_t last) {
-        part.elements->internal_forces(u, first, last, std::span(element_forces_).subspan(part.first_force),
-                                       std::span(smallest_J_).subspan(part.first_pack));
-    });
+void Assembly<D>::sum_at_nodes(std::span<double> forces, BlockLoop loop) const {
     in_blocks(nodes(), nodes_per_block, loop, [&](std::size_t first, std::size_t last) {
         for (std::size_t a = first; a < last; ++a) {
             double f[D] = {};
@@ -236,6 +235,15 @@ double Assembly<D>::internal_forces(std::span<const double> u, std::span<double>
             for (std::size_t i = 0; i < D; ++i) forces[D * a + i] = f[i];
         }
     });
+}
+
+template <int D>
+double Assembly<D>::internal_forces(std::span<const double> u, std::span<double> forces, BlockLoop loop) {
+    for_packs(force_work_per_block, loop, [&](const Part& part, std::size_t first, std::size_t last) {
+        part.elements->internal_forces(u, first, last, std::span(element_forces_).subspan(part.first_force),
+                                       std::span(smallest_J_).subspan(part.first_pack));
+    });
+    sum_at_nodes(forces, loop);
     return *std::min_element(smallest_J_.begin(), smallest_J_.end());
 }
 
@@ -272,6 +280,30 @@ void Assembly<D>::system_matrix(std::span<const double> u, double stiffness_fact
             }
         }
     });
+}
+
+template <int D>
+void Assembly<D>::multiply_stiffness(std::span<const double> x, std::span<double> y, BlockLoop loop) {
+    for_packs(force_work_per_block, loop, [&](const Part& part, std::size_t first, std::size_t last) {
+        constexpr std::size_t most_rows = D == 2 ? 16 : 60;
+        const std::size_t nodes = part.elements->node_count(), rows = part.elements->rows();
+        for (std::size_t p = first; p < last; ++p) {
+            double X[most_rows][lanes], Y[most_rows][lanes] = {};
+            for (std::size_t r = 0; r < rows; ++r)
+                for (std::size_t l = 0; l < lanes; ++l)
+                    X[r][l] = x[D * std::size_t(part.connectivity[(p * nodes + r / D) * lanes + l]) + r % D];
+            const double* K = &element_matrices_[part.first_matrix + p * part.elements->matrix_size()];
+            for (std::size_t r = 0; r < rows; ++r)
+                for (std::size_t c = 0; c <= r; ++c, K += lanes)
+                    for (std::size_t l = 0; l < lanes; ++l) {
+                        Y[r][l] += K[l] * X[c][l];
+                        if (c < r) Y[c][l] += K[l] * X[r][l];
+                    }
+            std::copy(&Y[0][0], &Y[0][0] + rows * lanes,
+                      &element_forces_[part.first_force + p * part.elements->force_size()]);
+        }
+    });
+    sum_at_nodes(y, loop);
 }
 
 template <int D>

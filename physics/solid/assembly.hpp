@@ -48,6 +48,8 @@ class Assembly {
     // values = stiffness_factor × K(u) + mass_factor × M in that pattern.
     void system_matrix(std::span<const double> u, double stiffness_factor, double mass_factor, std::span<double> values,
                        BlockLoop loop);
+    // y = K x with the K of the last system_matrix, D × nodes, held ones included.
+    void multiply_stiffness(std::span<const double> x, std::span<double> y, BlockLoop loop);
     // The diagonal of K(u) in the last system_matrix, by equation [N/m].
     const std::vector<double>& stiffness_diagonal() const { return stiffness_diagonal_; }
 
@@ -58,6 +60,7 @@ class Assembly {
     struct Part {
         std::unique_ptr<ElementGroup<D>> elements;
         std::size_t first_force = 0, first_matrix = 0, first_pack = 0;  // of its packs, in the arrays of all groups
+        std::vector<NodeIndex> connectivity;                            // [pack][node][lane]
     };
     struct NodeGraph {  // nodes that share an element, ascending
         std::vector<std::size_t> starts;
@@ -65,10 +68,12 @@ class Assembly {
     };
 
     void make_groups(const Mesh<D>& mesh, const Options<D>& options);
-    void number_equations(const Mesh<D>& mesh, const std::vector<Clamp<D>>& clamps);
+    void number_equations(const Mesh<D>& mesh, const Options<D>& options);
     void list_node_elements(const Mesh<D>& mesh);
     void build_mass(const Mesh<D>& mesh, const Options<D>& options, const NodeGraph& graph);
     void build_pattern(const Mesh<D>& mesh, const NodeGraph& graph);
+
+    void sum_at_nodes(std::span<double> forces, BlockLoop loop) const;  // of element_forces_
 
     // Calls body(part, first pack, last pack) for blocks of packs of all groups.
     template <class Body>

@@ -57,32 +57,58 @@ std::string NewtonResult::description() const {
 }
 
 template <int D>
-bool Solver<D>::Implementation::factorise_dynamic(const std::vector<double>& at, double dt, BlockLoop loop) {
-    assembly.system_matrix(at, newmark.weight_new * newmark.beta * dt * dt, 1, cholesky.values(), loop);
-    ++statistics.matrices;
-    factor = {true, dt, 0, 0, 0};
-    factored_at = at;
-    by_gradients = gradients_are_cheaper(dt);
-    if (by_gradients) return true;
-    return factor.valid = factorise();
+bool Solver<D>::Implementation::factorise_dynamic(double dt, BlockLoop loop) {
+    factor = {prepare_system(1, newmark.weight_new * newmark.beta * dt * dt, loop), dt, 0, 0, 0};
+    return factor.valid;
 }
 
-// M a_n = F_ext - F_int
+// M a_n = F_ext - F_int, with the loads of the end of the step. What is prescribed has the rates of its law.
 template <int D>
 void Solver<D>::Implementation::find_initial_accelerations(BlockLoop loop) {
-    assembly.internal_forces(u, internal, loop);
-    assembly.system_matrix(u, 0, 1, cholesky.values(), loop);
-    ++statistics.matrices;
+    std::fill(a.begin(), a.end(), 0.0);
+    motions.set_rates(time, v, a);
+    bodies.set_rates(time);
+    bodies.place(u, v, a);
+    evaluate_forces(loop);
+    previous_external = external;
+    previous_internal = internal;
+    body_previous_external = body_external;
+    body_previous_internal = body_internal;
+    body_previous_loads = body_loads;
+    dynamic_residual(loop);
+    linearise_here();
     factor = {};
-    for (std::size_t e = 0; e < residual.size(); ++e) {
-        const std::size_t f = assembly.freedoms()[e];
-        residual[e] = external[f] - internal[f];
-    }
-    by_gradients = gradients_are_cheaper(0);
-    if ((!by_gradients && !factorise()) || !solve_linear(residual, correction, loop, to_rounding))
+    if (!prepare_system(1, 0, loop) || !solve_system(to_rounding, loop))
         throw ConvergenceError("solid: the mass matrix is not positive definite");
-    std::fill(old_a.begin(), old_a.end(), 0.0);
-    for (std::size_t e = 0; e < correction.size(); ++e) old_a[assembly.freedoms()[e]] = correction[e];
+    for (std::size_t e = 0; e < assembly.equations(); ++e) a[assembly.freedoms()[e]] = correction[e];
+    bodies.add_accelerations(std::span<const double>(correction).subspan(assembly.equations()));
+    bodies.place(u, v, a);
+    dynamic_residual(loop);  // for M a
+    old_v = v;
+    old_a = a;
+    old_bodies = bodies.motions();
+}
+
+// The forces at the end of the last step are those at the start of this one.
+template <int D>
+void Solver<D>::Implementation::keep_forces() {
+    std::swap(previous_external, external);
+    std::swap(previous_internal, internal);
+    std::swap(body_previous_external, body_external);
+    std::swap(body_previous_internal, body_internal);
+    std::swap(body_previous_loads, body_loads);
+}
+
+template <int D>
+void Solver<D>::Implementation::correct_accelerations(double to_displacement) {
+    const std::size_t equations = assembly.equations();
+    for (std::size_t e = 0; e < equations; ++e) {
+        const std::size_t f = assembly.freedoms()[e];
+        a[f] += correction[e];
+        u[f] = predicted_u[f] + to_displacement * a[f];
+    }
+    bodies.correct(std::span<const double>(correction).subspan(equations));
+    bodies.place(u, v, a);
 }
 
 template <int D>
@@ -92,31 +118,24 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
         a[f] = attempt == Attempt::from_rest ? (old_u[f] - predicted_u[f]) / to_displacement : old_a[f];
         u[f] = predicted_u[f] + to_displacement * a[f];
     }
+    motions.place(time, u, v, a);
+    bodies.begin_step(time, dt, newmark, attempt == Attempt::from_rest);
+    bodies.place(u, v, a);
     NewtonResult result;
     using Outcome = NewtonResult::Outcome;
     bool factor_is_new = false;
     if (attempt != Attempt::reusing) {  // at the last accepted state: a predictor may be far out
-        if (!factorise_dynamic(old_u, dt, loop)) return result.outcome = Outcome::not_positive_definite, result;
+        linearise_at_start();
+        if (!factorise_dynamic(dt, loop)) return result.outcome = Outcome::not_positive_definite, result;
         factor_is_new = true;
     }
     double previous_norm = 0, last_increment = 0;
     for (;; ++result.iterations) {
-        const double smallest_J = assembly.internal_forces(u, internal, loop);
-        assembly.multiply_mass(a, inertia, loop);
-        double external_square = 0, internal_square = 0, inertia_square = 0, step_square = 0, residual_square = 0;
-        for (std::size_t e = 0; e < residual.size(); ++e) {
-            const std::size_t f = assembly.freedoms()[e];
-            residual[e] = newmark.weight_new * (external[f] - internal[f]) +
-                          newmark.weight_old * (previous_external[f] - previous_internal[f]) - inertia[f];
-            residual_square += residual[e] * residual[e];
-            external_square += external[f] * external[f];
-            internal_square += internal[f] * internal[f];
-            inertia_square += inertia[f] * inertia[f];
-            step_square += (u[f] - old_u[f]) * (u[f] - old_u[f]);
-        }
-        const double norm = std::sqrt(residual_square);
+        const double smallest_J = evaluate_forces(loop);
+        const Magnitudes of = dynamic_residual(loop);
+        const double norm = std::sqrt(of.residual);
         result.last_residual = norm;
-        result.reference = std::sqrt(std::max({external_square, internal_square, inertia_square}));
+        result.reference = of.reference();
         if (result.iterations == 0) result.first_residual = norm;
         if (!std::isfinite(norm)) return result.outcome = Outcome::not_finite, result;
         if (!(smallest_J > 0)) return result.outcome = Outcome::inside_out, result;
@@ -128,60 +147,76 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
             const double rate = norm / previous_norm;
             const double error =
                 rate < 1 ? rate / (1 - rate) * last_increment : std::numeric_limits<double>::infinity();
-            if (norm <= target && error <= options.increment_tolerance * std::sqrt(step_square)) return result;
+            if (norm <= target && error <= options.increment_tolerance * std::sqrt(of.step)) return result;
             const double to_come = rate < 1 ? std::log(std::max(target, rounding) / norm) / std::log(rate)
                                             : std::numeric_limits<double>::infinity();
             if (to_come > factorisation_cost && !(factor_is_new && rate < 0.1)) {
-                if (!factorise_dynamic(u, dt, loop)) return result.outcome = Outcome::not_positive_definite, result;
+                linearise_here();
+                if (!factorise_dynamic(dt, loop)) return result.outcome = Outcome::not_positive_definite, result;
                 factor_is_new = true;
                 result.iterations_before_factor = result.iterations;
             }
         }
         if (result.iterations == options.max_iterations) return result.outcome = Outcome::too_many_iterations, result;
 
-        if (!solve_linear(residual, correction, loop, newton_tolerance))
-            return result.outcome = Outcome::not_positive_definite, result;
-        for (std::size_t e = 0; e < correction.size(); ++e) {
-            const std::size_t f = assembly.freedoms()[e];
-            a[f] += correction[e];
-            u[f] = predicted_u[f] + to_displacement * a[f];
-        }
+        if (!solve_system(newton_tolerance, loop)) return result.outcome = Outcome::not_positive_definite, result;
+        correct_accelerations(to_displacement);
         previous_norm = norm;
         last_increment = to_displacement * this->norm(correction);
     }
 }
 
+// Remembers the start of the step and everything that acts there.
 template <int D>
-void Solver<D>::Implementation::advance(double dt, std::span<const double> loads, BlockLoop loop) {
+void Solver<D>::Implementation::begin_step(double dt, std::span<const double> given_loads, BlockLoop loop) {
     if (!(dt > 0) || !std::isfinite(dt))
         throw std::invalid_argument("solid: the time step must be positive, it is " + std::to_string(dt));
-    if (loads.size() != u.size())
-        throw std::invalid_argument("solid: " + std::to_string(loads.size()) + " load components were given, " +
-                                    std::to_string(u.size()) + " are needed (" + std::to_string(D) + " per node)");
+    take_loads(given_loads);
     old_u = u;
     old_v = v;
     old_a = a;
-    const auto go_back = [&] {
-        u = old_u;
-        v = old_v;
-        a = old_a;
-        if (!accelerations_known) {
-            std::fill(a.begin(), a.end(), 0.0);
-        } else {
-            external = previous_external;
-            internal = previous_internal;
-        }
-        factor = {};
-    };
-    const std::vector<double>& gravity = assembly.gravity_forces();
-    std::swap(previous_external, external);
-    std::swap(previous_internal, internal);
-    for (std::size_t f = 0; f < u.size(); ++f) external[f] = loads[f] + gravity[f];
-    if (!accelerations_known) {
+    old_bodies = bodies.motions();
+    if (accelerations_known) {
+        bodies.gather(inertia, body_inertia);
+        bodies.add_own_inertia(body_inertia);
+        keep_forces();
+    } else {
         find_initial_accelerations(loop);
-        previous_external = external;
-        previous_internal = internal;
     }
+    open_account(loop);
+    bodies.keep_start();
+    time += dt;
+}
+
+// Undoes begin_step and whatever followed.
+template <int D>
+void Solver<D>::Implementation::abandon_step(double old_time) {
+    time = old_time;
+    u = old_u;
+    v = old_v;
+    a = old_a;
+    bodies.set_motions(old_bodies);
+    keep_forces();
+    if (!accelerations_known) {
+        std::fill(a.begin(), a.end(), 0.0);
+        bodies.forget_accelerations();
+    }
+    assembly.multiply_mass(a, inertia, serial_loop);
+    factor = {};
+}
+
+template <int D>
+void Solver<D>::Implementation::accept_step(BlockLoop loop) {
+    close_account(loop);
+    accelerations_known = true;
+    update_positions();
+    ++statistics.steps;
+}
+
+template <int D>
+void Solver<D>::Implementation::advance(double dt, std::span<const double> given_loads, BlockLoop loop) {
+    const double old_time = time;
+    begin_step(dt, given_loads, loop);
     for (const std::size_t f : assembly.freedoms())
         predicted_u[f] = old_u[f] + dt * old_v[f] + dt * dt * (0.5 - newmark.beta) * old_a[f];
 
@@ -196,7 +231,7 @@ void Solver<D>::Implementation::advance(double dt, std::span<const double> loads
         if (result.converged()) break;
     }
     if (!result.converged()) {
-        go_back();
+        abandon_step(old_time);
         std::ostringstream text;
         text << "solid: Newton failed in step " << statistics.steps + 1 << " of size " << dt
              << " s: " << result.description()
@@ -210,15 +245,9 @@ void Solver<D>::Implementation::advance(double dt, std::span<const double> loads
         factor.iterations_when_new = std::max(factor.iterations_when_new, iterations);
     else
         factor.excess += std::max(0, iterations - factor.iterations_when_new);
-    double work = 0;
-    for (const std::size_t f : assembly.freedoms()) {
+    for (const std::size_t f : assembly.freedoms())
         v[f] = old_v[f] + dt * ((1 - newmark.gamma) * old_a[f] + newmark.gamma * a[f]);
-        work += 0.5 * (external[f] + previous_external[f] - 2 * gravity[f]) * (u[f] - old_u[f]);
-    }
-    external_work += work;
-    accelerations_known = true;
-    update_positions();
-    ++statistics.steps;
+    accept_step(loop);
     statistics.last_iterations = result.iterations;
     statistics.last_residual = result.reference > 0 ? result.last_residual / result.reference : 0;
 }

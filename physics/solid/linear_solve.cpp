@@ -1,4 +1,5 @@
-// Factor or conjugate gradients, for the system B = M + w β Δt² K of a time step.
+// The linear systems of Newton's method: B = m M + k K over the equations, by a factor or by conjugate gradients,
+// bordered by the unknowns of rigid bodies.
 #include <algorithm>
 #include <cmath>
 
@@ -18,18 +19,71 @@ constexpr double solves_per_factor = 40;     // while steps change little
 constexpr double iterations_of_mass = 20;    // of conjugate gradients on M alone, for quadratic elements
 
 constexpr int most_gradient_iterations = 500;
+constexpr double to_rounding = 1e-14;  // a system that Newton does not come back to
 
 }  // namespace
+
+template <int D>
+void Solver<D>::Implementation::linearise_here() {
+    linearised.u = u;
+    linearised.bodies = bodies.motions();
+}
+
+template <int D>
+void Solver<D>::Implementation::linearise_at_start() {
+    linearised.u = old_u;
+    linearised.bodies = old_bodies;
+}
+
+// C = B T and E = Tᵀ B T, with the own masses of the bodies. The change of T with the rotation is left out: it costs an
+// iteration, and the matrix stays symmetric.
+template <int D>
+void Solver<D>::Implementation::assemble_border(double mass_factor, double stiffness_factor, BlockLoop loop) {
+    for (std::size_t n = 0; n < bodies.unknowns().size(); ++n) {
+        std::fill(column.begin(), column.end(), 0.0);
+        bodies.column(n, linearised.bodies, column);
+        assembly.multiply_stiffness(column, column_product, loop);
+        assembly.multiply_mass(column, momentum, loop);
+        for (std::size_t f = 0; f < column.size(); ++f)
+            column_product[f] = mass_factor * momentum[f] + stiffness_factor * column_product[f];
+        for (std::size_t e = 0; e < assembly.equations(); ++e)
+            border.column(n)[e] = column_product[assembly.freedoms()[e]];
+        for (std::size_t m = 0; m < bodies.unknowns().size(); ++m) {
+            std::fill(column.begin(), column.end(), 0.0);
+            bodies.column(m, linearised.bodies, column);
+            double& entry = border.corner(m, n);
+            entry = mass_factor * bodies.own_mass(m, n, linearised.bodies);
+            for (std::size_t f = 0; f < column.size(); ++f) entry += column[f] * column_product[f];
+        }
+    }
+}
+
+template <int D>
+bool Solver<D>::Implementation::prepare_system(double mass_factor, double stiffness_factor, BlockLoop loop) {
+    assembly.system_matrix(linearised.u, stiffness_factor, mass_factor, cholesky.values(), loop);
+    ++statistics.matrices;
+    assemble_border(mass_factor, stiffness_factor, loop);
+    by_gradients = mass_factor != 0 && gradients_are_cheaper(stiffness_factor);
+    if (!by_gradients && !factorise()) return false;
+    return border.condense(
+        [&](std::span<const double> b, std::span<double> x) { return solve_linear(b, x, loop, to_rounding); });
+}
+
+template <int D>
+bool Solver<D>::Implementation::solve_system(double gradient_tolerance, BlockLoop loop) {
+    return border.solve(residual, correction, [&](std::span<const double> b, std::span<double> x) {
+        return solve_linear(b, x, loop, gradient_tolerance);
+    });
+}
 
 // B = M (1 + r), r = w β Δt² K/M: the number of iterations grows with √(1 + r), its largest entry on the diagonal
 // standing for r.
 template <int D>
-bool Solver<D>::Implementation::gradients_are_cheaper(double dt) const {
+bool Solver<D>::Implementation::gradients_are_cheaper(double weight) const {
     if (options.linear_solver != LinearSolver::automatic)
         return options.linear_solver == LinearSolver::conjugate_gradients;
     double ratio = 0;
     const auto values = cholesky.values();
-    const double weight = newmark.weight_new * newmark.beta * dt * dt;
     for (std::size_t e = 0; e < assembly.equations(); ++e) {
         const double stiffness = weight * assembly.stiffness_diagonal()[e];
         ratio = std::max(ratio, stiffness / (values[std::size_t(assembly.column_starts()[e])] - stiffness));

@@ -1,8 +1,12 @@
 // What a solid is made of, held by and taken through time with.
 #pragma once
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "physics/time_law.hpp"
 
 namespace aquagraph::solid {
 
@@ -59,6 +63,33 @@ struct Clamp {
     std::array<bool, D> fixed{};
 };
 
+// Every node of a set moves by these displacements from its reference position in the directions that have one. In
+// static solves they grow with the load, up to their values at the solver's time.
+template <int D>
+struct Motion {
+    std::string set;
+    std::array<std::optional<TimeFunction>, D> displacement;  // [m]
+};
+
+template <int D>
+inline constexpr std::size_t rotation_count = D == 2 ? 1 : 3;
+template <int D>
+inline constexpr std::size_t rigid_freedoms = D + rotation_count<D>;  // translations, then rotations (about x, y, z)
+
+// The nodes of a set move as one rigid body, as a wheel's rim does. Each of its freedoms is prescribed, or it is free
+// and loaded.
+template <int D>
+struct RigidBody {
+    std::string set;
+    std::optional<std::array<double, D>> point = {};  // loads act on it; if none, the mean of the nodes
+    // [m], [rad] about the point; 3D rotations: integrals of the components of the angular velocity, the angle if there
+    // is one axis.
+    std::array<std::optional<TimeFunction>, rigid_freedoms<D>> motion = {};
+    std::array<TimeFunction, rigid_freedoms<D>> load = {};  // [N], [N m]
+    double mass = 0;                                        // its own, beside that of its nodes [kg]
+    std::array<double, rotation_count<D>> inertia = {};     // principal, along x, y, z at first [kg m²]
+};
+
 template <int D>
 struct Options {
     Material material;                              // of all elements that are in no part
@@ -71,6 +102,8 @@ struct Options {
     Scheme scheme = Scheme::hht;
     double alpha = -0.3;  // αs in ]-1/3, 0]
     std::vector<Clamp<D>> clamps;
+    std::vector<Motion<D>> motions;
+    std::vector<RigidBody<D>> rigid_bodies;
     double residual_tolerance = 1e-8;   // of the largest of |F_ext|, |F_int|, |M a| (Euclidean norms over free nodes)
     double increment_tolerance = 1e-6;  // of |u_n+1 - u_n|: bounds the displacement error that Newton leaves
     int max_iterations = 30;            // of one Newton solve

@@ -64,28 +64,37 @@ Solver<D>::Implementation::Implementation(Mesh<D> given_mesh, const Options<D>& 
       options(checked(given_options)),
       newmark(newmark_coefficients(options.scheme, options.alpha)),
       assembly(mesh, options),
+      motions(mesh, options.motions),
+      bodies(mesh, options),
       cholesky(assembly.column_starts(), assembly.rows()),
-      gradients(assembly.column_starts(), assembly.rows()) {
+      gradients(assembly.column_starts(), assembly.rows()),
+      border(assembly.equations(), bodies.unknowns().size()) {
     require(assembly.equations() > 0, "the clamps leave nothing free");
-    for (auto* field : {&u, &v, &a, &positions, &internal, &inertia, &external, &previous_external, &previous_internal,
-                        &old_u, &old_v, &old_a, &predicted_u, &static_start, &static_target})
+    for (auto* field : {&u, &v, &a, &positions, &loads, &internal, &inertia, &external, &previous_external,
+                        &previous_internal, &old_u, &old_v, &old_a, &predicted_u, &static_start, &momentum})
         field->assign(D * mesh.nodes.size(), 0.0);
-    residual.assign(assembly.equations(), 0.0);
-    correction.assign(assembly.equations(), 0.0);
+    for (auto* field : {&body_external, &body_internal, &body_inertia, &body_previous_external, &body_previous_internal,
+                        &body_loads, &body_previous_loads})
+        field->assign(bodies.coordinates(), 0.0);
+    if (!bodies.empty()) column.assign(u.size(), 0.0);
+    column_product = column;
+    residual.assign(assembly.equations() + bodies.unknowns().size(), 0.0);
+    correction = residual;
     update_positions();
 }
 
 template <int D>
-double Solver<D>::Implementation::norm(std::span<const double> equations) const {
-    double sum = 0;
-    for (const double x : equations) sum += x * x;
-    return std::sqrt(sum);
+void Solver<D>::Implementation::take_loads(std::span<const double> given) {
+    if (given.size() != loads.size())
+        throw std::invalid_argument("solid: " + std::to_string(given.size()) + " load components were given, " +
+                                    std::to_string(loads.size()) + " are needed (" + std::to_string(D) + " per node)");
+    std::copy(given.begin(), given.end(), loads.begin());
 }
 
 template <int D>
-double Solver<D>::Implementation::norm_of_free(std::span<const double> full) const {
+double Solver<D>::Implementation::norm(std::span<const double> unknowns) const {
     double sum = 0;
-    for (const std::size_t f : assembly.freedoms()) sum += full[f] * full[f];
+    for (const double x : unknowns) sum += x * x;
     return std::sqrt(sum);
 }
 
@@ -94,7 +103,7 @@ template <int D>
 double Solver<D>::Implementation::rounding_floor() const {
     constexpr double terms = 4;
     double sum = 0;
-    for (std::size_t e = 0; e < residual.size(); ++e) {
+    for (std::size_t e = 0; e < assembly.equations(); ++e) {
         const double force = assembly.stiffness_diagonal()[e] * u[assembly.freedoms()[e]];
         sum += force * force;
     }
@@ -164,17 +173,65 @@ double Solver<D>::largest_stable_step() const {
 }
 
 template <int D>
-Energies Solver<D>::energies() const {
+double Solver<D>::time() const {
+    return implementation_->time;
+}
+template <int D>
+void Solver<D>::set_time(double time) {
+    require(std::isfinite(time), "the time must be finite");
+    implementation_->time = time;
+}
+
+template <int D>
+std::array<double, D> Solver<D>::reaction(const std::string& set) const {
     const Implementation& self = *implementation_;
-    std::vector<double> momentum(self.u.size());
-    self.assembly.multiply_mass(self.v, momentum, serial_loop);
-    Energies energies;
-    for (std::size_t f = 0; f < self.u.size(); ++f) {
-        energies.kinetic += 0.5 * self.v[f] * momentum[f];
-        energies.gravity_potential -= self.assembly.gravity_forces()[f] * self.u[f];
+    std::array<double, D> sum{};
+    for (const NodeIndex node : self.mesh.node_set(set))
+        for (std::size_t i = 0; i < D; ++i) {
+            const std::size_t f = D * std::size_t(node) + i;
+            if (self.assembly.equation_of()[f] < 0) sum[i] += self.inertia[f] + self.internal[f] - self.external[f];
+        }
+    return sum;
+}
+
+template <int D>
+RigidBodyState<D> Solver<D>::rigid_body(std::size_t body) const {
+    const Implementation& self = *implementation_;
+    require(body < self.bodies.motions().size(), "there is no rigid body " + std::to_string(body));
+    const std::size_t all = self.bodies.coordinates(), first = body * rigid_freedoms<D>;
+    std::vector<double> inertia(all), internal(all), external(all), loads(all);
+    self.bodies.gather(self.inertia, inertia);
+    self.bodies.add_own_inertia(inertia);
+    self.bodies.gather(self.internal, internal);
+    self.bodies.gather(self.external, external);
+    self.bodies.add_gravity(self.options.gravity, external);
+    self.bodies.loads(self.time, loads);
+    RigidBodyState<D> state;
+    const auto& motion = self.bodies.motion(body);
+    for (std::size_t i = 0; i < rigid_freedoms<D>; ++i) {
+        const double arm = i < D ? 1 : self.bodies.arm(body);
+        state.displacement[i] = motion.q[i] / arm;
+        state.velocity[i] = motion.velocity[i] / arm;
+        state.acceleration[i] = motion.acceleration[i] / arm;
+        if (self.options.rigid_bodies[body].motion[i]) {
+            const std::size_t k = first + i;
+            state.reaction[i] = arm * (inertia[k] + internal[k] - external[k] - loads[k]);
+        }
     }
+    return state;
+}
+
+template <int D>
+Energies Solver<D>::energies() const {
+    Implementation& self = *implementation_;
+    Energies energies;
+    energies.kinetic = self.kinetic_energy(serial_loop);
+    for (std::size_t f = 0; f < self.u.size(); ++f)
+        energies.gravity_potential -= self.assembly.gravity_forces()[f] * self.u[f];
+    energies.gravity_potential += self.bodies.gravity_potential(self.bodies.motions(), self.options.gravity);
     energies.strain = self.assembly.energy(self.u);
-    energies.external_work = self.external_work;
+    energies.external_work = self.account.external_work;
+    energies.numerical = self.account.numerical;
     return energies;
 }
 
@@ -182,55 +239,6 @@ template <int D>
 void Solver<D>::element_stress(std::span<double> von_mises) const {
     require(von_mises.size() == implementation_->mesh.elements.size(), "one stress per element is written");
     implementation_->assembly.von_mises(implementation_->u, von_mises);
-}
-
-template <int D>
-void Solver<D>::save(State& state) const {
-    const Implementation& self = *implementation_;
-    state.displacements = self.u;
-    state.velocities = self.v;
-    state.accelerations = self.a;
-    state.external_forces = self.external;
-    state.accelerations_known = self.accelerations_known;
-    state.external_work = self.external_work;
-    state.statistics = self.statistics;
-    state.factor_valid = self.factor.valid;
-    state.by_gradients = self.by_gradients;
-    state.factor_time_step = self.factor.time_step;
-    state.factor_steps = self.factor.steps;
-    state.factor_iterations_when_new = self.factor.iterations_when_new;
-    state.factor_excess = self.factor.excess;
-    state.factor_displacements = self.factored_at;
-}
-
-template <int D>
-void Solver<D>::restore(const State& state) {
-    Implementation& self = *implementation_;
-    for (const auto* field : {&state.displacements, &state.velocities, &state.accelerations, &state.external_forces})
-        require(field->size() == self.u.size(), "the saved state has " + std::to_string(field->size()) +
-                                                    " components, this mesh has " + std::to_string(self.u.size()));
-    self.u = state.displacements;
-    self.v = state.velocities;
-    self.a = state.accelerations;
-    self.external = state.external_forces;
-    self.assembly.internal_forces(self.u, self.internal, serial_loop);  // the same bits as when u was accepted
-    self.accelerations_known = state.accelerations_known;
-    self.external_work = state.external_work;
-    if (state.factor_valid) {
-        require(state.factor_displacements.size() == self.u.size(),
-                "the saved factorisation is of another number of nodes");
-        const bool in_use = self.factor.valid && self.factor.time_step == state.factor_time_step &&
-                            self.factored_at == state.factor_displacements;
-        if (!in_use) self.factorise_dynamic(state.factor_displacements, state.factor_time_step, serial_loop);
-        if (self.by_gradients && !state.by_gradients) self.cholesky.factorise();  // gradients had failed on this matrix
-        self.by_gradients = state.by_gradients;
-        self.factor = {self.factor.valid, state.factor_time_step, state.factor_steps, state.factor_iterations_when_new,
-                       state.factor_excess};
-    } else {
-        self.factor = {};
-    }
-    self.statistics = state.statistics;
-    self.update_positions();
 }
 
 template struct Solver<2>::Implementation;

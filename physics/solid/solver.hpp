@@ -31,12 +31,14 @@ class ConvergenceError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-struct Energies {        // [J]
-    double kinetic = 0;  // 1/2 v·M v
-    double strain = 0;   // ∫ W dV, over the reference configuration
-    double external_work =
-        0;  // of the loads without gravity, trapezoidal in time, since the start or the last solve_static
+struct Energies {                  // [J]
+    double kinetic = 0;            // 1/2 v·M v
+    double strain = 0;             // ∫ W dV, over the reference configuration
     double gravity_potential = 0;  // -F_gravity·u, zero in the reference configuration
+    // Since the start or the last solve_static, trapezoidal in time:
+    double external_work = 0;  // of the loads without gravity, and of what moves nodes as prescribed
+    double numerical = 0;      // dissipated by the scheme
+    // kinetic + strain + gravity_potential + numerical - external_work is constant, to the third order of a step.
 };
 
 struct Statistics {
@@ -56,24 +58,26 @@ struct Statistics {
 
 // Everything that the next step depends on, to write to a checkpoint.
 struct State {
+    double time = 0;                                               // [s]
     std::vector<double> displacements, velocities, accelerations;  // D × nodes
-    std::vector<double> external_forces;                           // loads of the last step and gravity
+    std::vector<double> external_forces, internal_forces;          // at the end of the last step
+    std::vector<double> rigid_bodies;  // of each: coordinates, velocities, accelerations, rotation matrix by rows
     bool accelerations_known = false;
-    double external_work = 0;
+    double external_work = 0, numerical_dissipation = 0;
     Statistics statistics;
     // The factorisation in use (or the matrix, for conjugate gradients), by where it was made and how it has done
     // since: that decides when it is renewed.
     bool factor_valid = false, by_gradients = false;
     double factor_time_step = 0;  // [s]
     int factor_steps = 0, factor_iterations_when_new = 0, factor_excess = 0;
-    std::vector<double> factor_displacements;
+    std::vector<double> factor_displacements, factor_rigid_bodies;
 
     template <class Archive>
     void archive(Archive& fields) {  // for a checkpoint
-        fields(displacements, velocities, accelerations, external_forces, accelerations_known, external_work,
-               statistics);
+        fields(time, displacements, velocities, accelerations, external_forces, internal_forces, rigid_bodies,
+               accelerations_known, external_work, numerical_dissipation, statistics);
         fields(factor_valid, by_gradients, factor_time_step, factor_steps, factor_iterations_when_new, factor_excess,
-               factor_displacements);
+               factor_displacements, factor_rigid_bodies);
     }
 };
 
@@ -83,6 +87,13 @@ struct NaturalMode {
     double frequency = 0;                   // ω/2π [Hz]; negative: of √-ω², growing instead of swinging
     std::vector<double> shape;              // D × nodes, largest component 1
     std::array<double, 3> mass_fraction{};  // of the whole mass that moves along x, y (and z): effective modal mass
+};
+
+// Where a rigid body is and what is done to it. Rotations as in RigidBody::motion.
+template <int D>
+struct RigidBodyState {
+    std::array<double, rigid_freedoms<D>> displacement{}, velocity{}, acceleration{};  // [m], [rad] and their rates
+    std::array<double, rigid_freedoms<D>> reaction{};  // of what is prescribed, acting on the body [N], [N m]
 };
 
 template <int D>
@@ -111,12 +122,22 @@ class Solver {
     // freedom, ConvergenceError if the search fails.
     std::vector<NaturalMode> natural_modes(int count, BlockLoop loop);
 
+    // Time of the laws of motions and loads [s]; 0 at first, advance() adds its step. A static solve takes them as they
+    // are at this time.
+    double time() const;
+    void set_time(double time);
+
     const Mesh<D>& mesh() const;
     const Options<D>& options() const;
     std::span<const double> positions() const;      // X + u [m]
     std::span<const double> displacements() const;  // u [m]
     std::span<const double> velocities() const;     // [m/s]
     std::span<const double> accelerations() const;  // [m/s²]
+
+    // Sum of the forces that hold the nodes of a set, where they are clamped or moved as prescribed [N]: M a + F_int -
+    // F_ext at the present state. Throws std::invalid_argument for an unknown set.
+    std::array<double, D> reaction(const std::string& set) const;
+    RigidBodyState<D> rigid_body(std::size_t body) const;  // in the order of the options
 
     Energies energies() const;  // computed when asked for
     Statistics statistics() const;

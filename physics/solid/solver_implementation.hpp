@@ -1,14 +1,18 @@
 // What is inside solid::Solver; only its own source files see it.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "physics/solid/assembly.hpp"
+#include "physics/solid/border.hpp"
 #include "physics/solid/cholesky.hpp"
 #include "physics/solid/conjugate_gradients.hpp"
+#include "physics/solid/constraints.hpp"
 #include "physics/solid/newmark.hpp"
+#include "physics/solid/rigid_bodies.hpp"
 #include "physics/solid/solver.hpp"
 
 namespace aquagraph::solid {
@@ -35,31 +39,75 @@ struct FactorPolicy {
     int excess = 0;               // iterations beyond those, in all later steps
 };
 
+// What has been done to the body and what was lost, since the start or the last static solve [J].
+struct Account {
+    double external_work = 0;  // loads without gravity, and whoever moves what is prescribed
+    double numerical = 0;      // work of all forces that did not become kinetic energy
+    // At the start of the step under way:
+    double kinetic = 0;
+    std::vector<double> reactions;       // of the freedoms of prescribed motions
+    std::vector<double> body_reactions;  // of the prescribed coordinates of rigid bodies
+};
+
 // A step is tried with the factorisation there is, then with a new one, then also from unchanged displacements.
 enum class Attempt { reusing, factorising, from_rest };
 
+// Squares of Euclidean norms over the unknowns, and, of forces, over the freedoms that are moved.
+struct Magnitudes {
+    double residual = 0, external = 0, internal = 0, inertia = 0;  // [N²]
+    double step = 0;                                               // u - u at the start of the step [m²]
+
+    double reference() const { return std::sqrt(std::max({external, internal, inertia})); }
+};
+
+// The unknowns are the free degrees of freedom of the nodes, by equation, and after them those of the rigid bodies.
 template <int D>
 struct Solver<D>::Implementation {
     Implementation(Mesh<D> mesh, const Options<D>& options);
 
+    // equation_of_motion.cpp
+    double evaluate_forces(BlockLoop loop);       // at u and `time`; returns the smallest det F
+    void gather_body_forces();                    // from those of the nodes
+    Magnitudes dynamic_residual(BlockLoop loop);  // of forces that are evaluated
+    Magnitudes static_residual(double load_factor);
+
+    // linear_solve.cpp: the system B = m M + k K at `linearised`, bordered by the rigid bodies; by a factor of B or by
+    // conjugate gradients, whichever is cheaper
+    void linearise_here();
+    void linearise_at_start();                                                         // of the step
+    bool prepare_system(double mass_factor, double stiffness_factor, BlockLoop loop);  // false: not positive definite
+    void assemble_border(double mass_factor, double stiffness_factor, BlockLoop loop);
+    bool gradients_are_cheaper(double stiffness_factor) const;
+    bool factorise();                                              // B; false: not positive definite
+    bool solve_system(double gradient_tolerance, BlockLoop loop);  // residual -> correction
+    bool solve_linear(std::span<const double> b, std::span<double> x, BlockLoop loop, double gradient_tolerance);  // B
+
     // implicit_step.cpp
     void advance(double dt, std::span<const double> loads, BlockLoop loop);
+    void begin_step(double dt, std::span<const double> loads, BlockLoop loop);
+    void abandon_step(double old_time);
+    void accept_step(BlockLoop loop);
+    void keep_forces();
     void find_initial_accelerations(BlockLoop loop);
     NewtonResult solve_step(double dt, Attempt attempt, BlockLoop loop);
-    bool factorise_dynamic(const std::vector<double>& at, double dt, BlockLoop loop);  // false: not positive definite
-
-    // linear_solve.cpp: the system of a time step, by the factor or by conjugate gradients, whichever is cheaper
-    bool gradients_are_cheaper(double dt) const;
-    bool factorise();  // the matrix in `cholesky`; false: not positive definite
-    bool solve_linear(std::span<const double> b, std::span<double> x, BlockLoop loop, double gradient_tolerance);
+    bool factorise_dynamic(double dt, BlockLoop loop);  // false: not positive definite
+    void correct_accelerations(double to_displacement);
 
     // static_equilibrium.cpp
     void solve_static(std::span<const double> loads, BlockLoop loop);
-    NewtonResult solve_increment(double load_factor, BlockLoop loop);
+    NewtonResult solve_increment(double load_factor, bool predict, BlockLoop loop);
+    bool move_held(double load_factor, bool predict, BlockLoop loop);
+    bool correct_displacements(BlockLoop loop);  // false: not positive definite
+    double size_of_displacements() const;
 
-    // Over the equations.
-    double norm_of_free(std::span<const double> full) const;
-    double norm(std::span<const double> equations) const;
+    // energy_account.cpp
+    void open_account(BlockLoop loop);   // at the start of a step
+    void close_account(BlockLoop loop);  // at its end
+    double kinetic_energy(BlockLoop loop);
+
+    void take_loads(std::span<const double> given);  // throws std::invalid_argument
+    void restore_factor(const State& state);         // solver_state.cpp
+    double norm(std::span<const double> unknowns) const;
     double rounding_floor() const;  // what rounding alone leaves of the residual [N]
     void update_positions();
 
@@ -67,25 +115,46 @@ struct Solver<D>::Implementation {
     const Options<D> options;
     const NewmarkCoefficients newmark;
     Assembly<D> assembly;
+    PrescribedMotions<D> motions;
+    RigidBodies<D> bodies;
     Cholesky cholesky;
     ConjugateGradients gradients;
+    Border border;
 
+    double time = 0;
     // D × nodes
     std::vector<double> u, v, a, positions;
+    std::vector<double> loads;                        // given for the end of the step
     std::vector<double> internal, inertia;            // F_int(u), M a
     std::vector<double> external, previous_external;  // loads and gravity, at the end and at the start of a step
     std::vector<double> previous_internal;
-    std::vector<double> old_u, old_v, old_a;          // at the start of the step
-    std::vector<double> predicted_u;                  // the part of u_n+1 that does not depend on a_n+1
-    std::vector<double> static_start, static_target;  // forces at the ends of a static solve
-    // by equation
+    std::vector<double> old_u, old_v, old_a;  // at the start of the step
+    std::vector<double> predicted_u;          // the part of u_n+1 that does not depend on a_n+1
+    std::vector<double> static_start,
+        static_start_u;                          // forces that hold, and displacements, where a static solve began
+    std::vector<double> momentum;                // M v
+    std::vector<double> column, column_product;  // of a rigid body's unknown; empty without bodies
+    // by unknown
     std::vector<double> residual, correction;
 
+    // Over the coordinates of the rigid bodies: generalised forces as those of the nodes above.
+    using BodyMotions = std::vector<typename RigidBodies<D>::Motion>;
+    BodyMotions old_bodies, static_start_bodies;
+    std::vector<double> body_external, body_internal, body_inertia, body_previous_external, body_previous_internal;
+    std::vector<double> body_loads, body_previous_loads;
+    std::vector<double> body_static_start;
+
+    struct Linearisation {  // where a tangent is taken
+        std::vector<double> u;
+        BodyMotions bodies;
+        bool operator==(const Linearisation&) const = default;
+    };
+    Linearisation linearised;
+
     bool accelerations_known = false;
-    double external_work = 0;
+    Account account;
     FactorPolicy factor;
-    std::vector<double> factored_at;  // displacements that the matrix of the last step was made for
-    bool by_gradients = false;        // the matrix in `cholesky` has not been factorised
+    bool by_gradients = false;  // the matrix in `cholesky` has not been factorised
     Statistics statistics;
 };
 

@@ -17,19 +17,16 @@ constexpr int easy_iterations = 6;
 // Newton at start + load_factor (target - start). Converged: |r| <= residual_tolerance × max(|F_ext|, |F_int|) and the
 // last correction, squared by Newton's convergence, is below increment_tolerance × |u|; or rounding is reached.
 template <int D>
-NewtonResult Solver<D>::Implementation::solve_increment(double load_factor, BlockLoop loop) {
+NewtonResult Solver<D>::Implementation::solve_increment(double load_factor, bool predict, BlockLoop loop) {
     NewtonResult result;
     using Outcome = NewtonResult::Outcome;
     double relative_correction = 1;
+    if (!move_held(load_factor, predict, loop)) return result.outcome = Outcome::not_positive_definite, result;
     for (;; ++result.iterations) {
-        const double smallest_J = assembly.internal_forces(u, internal, loop);
-        for (std::size_t e = 0; e < residual.size(); ++e) {
-            const std::size_t f = assembly.freedoms()[e];
-            external[f] = static_start[f] + load_factor * (static_target[f] - static_start[f]);
-            residual[e] = external[f] - internal[f];
-        }
-        result.last_residual = norm(residual);
-        result.reference = std::max(norm_of_free(external), norm_of_free(internal));
+        const double smallest_J = evaluate_forces(loop);
+        const Magnitudes of = static_residual(load_factor);
+        result.last_residual = std::sqrt(of.residual);
+        result.reference = of.reference();
         if (result.iterations == 0) result.first_residual = result.last_residual;
         if (!std::isfinite(result.last_residual)) return result.outcome = Outcome::not_finite, result;
         if (!(smallest_J > 0)) return result.outcome = Outcome::inside_out, result;
@@ -39,38 +36,86 @@ NewtonResult Solver<D>::Implementation::solve_increment(double load_factor, Bloc
             return result;
         if (result.iterations == options.max_iterations) return result.outcome = Outcome::too_many_iterations, result;
 
-        assembly.system_matrix(u, 1, 0, cholesky.values(), loop);
-        ++statistics.matrices;
-        if (!factorise()) return result.outcome = Outcome::not_positive_definite, result;
-        cholesky.solve(residual, correction);
-        for (std::size_t e = 0; e < correction.size(); ++e) u[assembly.freedoms()[e]] += correction[e];
-        const double size = norm_of_free(u);
+        linearise_here();
+        if (!prepare_system(0, 1, loop) || !correct_displacements(loop))
+            return result.outcome = Outcome::not_positive_definite, result;
+        const double size = size_of_displacements();
         relative_correction = size > 0 ? norm(correction) / size : 0;
     }
 }
 
 template <int D>
-void Solver<D>::Implementation::solve_static(std::span<const double> loads, BlockLoop loop) {
-    if (loads.size() != u.size())
-        throw std::invalid_argument("solid: " + std::to_string(loads.size()) + " load components were given, " +
-                                    std::to_string(u.size()) + " are needed (" + std::to_string(D) + " per node)");
-    const std::vector<double> start_u = u, start_external = external, start_internal = internal;
+bool Solver<D>::Implementation::correct_displacements(BlockLoop loop) {
+    constexpr double no_gradients = 0;  // without a mass there is always a factor
+    if (!solve_system(no_gradients, loop)) return false;
+    for (std::size_t e = 0; e < assembly.equations(); ++e) u[assembly.freedoms()[e]] += correction[e];
+    bodies.move(std::span<const double>(correction).subspan(assembly.equations()));
+    bodies.place(u);
+    return true;
+}
+
+template <int D>
+double Solver<D>::Implementation::size_of_displacements() const {
+    double sum = 0;
+    for (const std::size_t f : assembly.freedoms()) sum += u[f] * u[f];
+    for (const auto& motion : bodies.motions())
+        for (const double q : motion.q) sum += q * q;
+    return std::sqrt(sum);
+}
+
+// Takes what is prescribed to its place. With `predict` the rest follows by one linear step, r - K Δu: elements beside
+// the moved nodes would be crushed before Newton could begin. False: not positive definite.
+template <int D>
+bool Solver<D>::Implementation::move_held(double load_factor, bool predict, BlockLoop loop) {
+    if (motions.freedoms().empty() && bodies.prescribed().empty()) return true;
+    if (predict) {
+        linearise_here();
+        evaluate_forces(loop);
+        static_residual(load_factor);
+        if (!prepare_system(0, 1, loop)) return false;
+    }
+    motions.ramp(time, load_factor, static_start_u, u);
+    bodies.ramp(time, load_factor, static_start_bodies);
+    bodies.place(u);
+    if (!predict) return true;
+    std::vector<double> step = u, product(u.size()), body_product(bodies.coordinates());
+    for (std::size_t f = 0; f < u.size(); ++f) step[f] -= linearised.u[f];
+    assembly.multiply_stiffness(step, product, loop);
+    for (std::size_t e = 0; e < assembly.equations(); ++e) residual[e] -= product[assembly.freedoms()[e]];
+    bodies.gather(product, body_product);
+    for (std::size_t n = 0; n < bodies.unknowns().size(); ++n)
+        residual[assembly.equations() + n] -= body_product[bodies.unknowns()[n]];
+    return correct_displacements(loop);
+}
+
+template <int D>
+void Solver<D>::Implementation::solve_static(std::span<const double> given_loads, BlockLoop loop) {
+    take_loads(given_loads);
+    const std::vector<double> start_external = external, start_internal = internal;
+    static_start_u = u;
+    static_start_bodies = bodies.motions();
     factor = {};
-    assembly.internal_forces(u, static_start, loop);
-    for (std::size_t f = 0; f < u.size(); ++f) static_target[f] = loads[f] + assembly.gravity_forces()[f];
+    evaluate_forces(loop);
+    static_start = internal;
+    body_static_start = body_internal;
 
     double reached = 0, increment = 1, last_increment = 0;
     std::vector<double> u_reached = u, u_before = u;
+    BodyMotions bodies_reached = bodies.motions(), bodies_before = bodies_reached;
     while (reached < 1) {
         const double next = std::min(1.0, reached + increment);
-        for (std::size_t f = 0; f < u.size(); ++f)
-            u[f] = u_reached[f] +
-                   (last_increment > 0 ? (next - reached) / last_increment : 0) * (u_reached[f] - u_before[f]);
-        const NewtonResult result = solve_increment(next, loop);
+        const double ratio = last_increment > 0 ? (next - reached) / last_increment : 0;
+        for (std::size_t f = 0; f < u.size(); ++f) u[f] = u_reached[f] + ratio * (u_reached[f] - u_before[f]);
+        bodies.set_motions(bodies_reached);
+        bodies.extrapolate(bodies_before, ratio);
+        bodies.place(u);
+        const NewtonResult result = solve_increment(next, last_increment == 0, loop);
         statistics.newton_iterations += result.iterations;
         if (result.converged()) {
             std::swap(u_before, u_reached);
             u_reached = u;
+            std::swap(bodies_before, bodies_reached);
+            bodies_reached = bodies.motions();
             last_increment = next - reached;
             reached = next;
             statistics.last_iterations = result.iterations;
@@ -80,7 +125,8 @@ void Solver<D>::Implementation::solve_static(std::span<const double> loads, Bloc
         }
         increment = 0.5 * (next - reached);
         if (increment >= smallest_increment) continue;
-        u = start_u;
+        u = static_start_u;
+        bodies.set_motions(static_start_bodies);
         external = start_external;
         internal = start_internal;
         std::ostringstream text;
@@ -95,9 +141,10 @@ void Solver<D>::Implementation::solve_static(std::span<const double> loads, Bloc
     }
     std::fill(v.begin(), v.end(), 0.0);
     std::fill(a.begin(), a.end(), 0.0);
-    external = static_target;
+    std::fill(inertia.begin(), inertia.end(), 0.0);
+    bodies.come_to_rest();
     accelerations_known = false;
-    external_work = 0;
+    account = {};
     update_positions();
 }
 

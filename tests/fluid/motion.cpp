@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+using namespace aquagraph;
 using namespace aquagraph::fluid;
 using doctest::Approx;
 
@@ -41,12 +42,13 @@ TEST_CASE("laws of motion against their closed forms, rates against differences"
     CHECK(rising.at(1).value == Approx(0.3 * std::sin(4 * pi + 0.5)));
 
     const TimeTable table({-0.5, 0, 0.2, 0.5, 0.6, 1.5}, {1, 2, 4, 4.1, 3, -2});
-    for (const MotionLaw& law :
-         {MotionLaw(constant), MotionLaw(ramped), MotionLaw(wave), MotionLaw(rising), MotionLaw(table)})
+    for (const TimeLaw& law : {TimeLaw(constant), TimeLaw(ramped), TimeLaw(wave), TimeLaw(rising), TimeLaw(table)})
         for (const double t : {0.03, 0.13, 0.27, 0.39, 0.55, 0.9, 1.4}) {
             CAPTURE(t);
             const double rate = difference([&](double s) { return evaluate(law, s).value; }, t, 1e-3);
             CHECK(evaluate(law, t).rate == Approx(rate).epsilon(1e-8));
+            const double acceleration = difference([&](double s) { return evaluate(law, s).rate; }, t, 1e-3);
+            CHECK(evaluate(law, t).acceleration == Approx(acceleration).epsilon(1e-6));
         }
 }
 
