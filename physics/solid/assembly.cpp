@@ -7,6 +7,7 @@
 
 #include "physics/solid/constraints.hpp"
 #include "physics/solid/elements/dispatch.hpp"
+#include "physics/solid/surface_facets.hpp"
 
 namespace aquagraph::solid {
 
@@ -43,8 +44,8 @@ Lists make_lists(std::size_t rows, const Visit& visit) {
     return lists;
 }
 
-template <int D>
-std::size_t freedom(const Element& element, std::size_t local) {
+template <int D, class Nodes>
+std::size_t freedom(const Nodes& element, std::size_t local) {
     return D * static_cast<std::size_t>(element[local / D]) + local % D;
 }
 
@@ -57,6 +58,16 @@ void Assembly<D>::for_packs(std::size_t work_per_block, BlockLoop loop, const Bo
         const std::size_t nodes = part.elements->node_count();
         in_blocks(part.elements->packs(), std::max(std::size_t{1}, work_per_block / (nodes * nodes * lanes)), loop,
                   [&](std::size_t first, std::size_t last) { body(part, first, last); });
+    }
+}
+
+template <int D>
+template <class Visit>
+void Assembly<D>::for_facets(const Visit& visit) const {
+    std::size_t start = first_facet_matrix_;
+    for (const Facet& facet : facets_) {
+        visit(facet, start);
+        start += packed_index(D * facet.size(), 0);
     }
 }
 
@@ -119,6 +130,9 @@ void Assembly<D>::make_groups(const Mesh<D>& mesh, const Options<D>& options) {
         matrices += part.elements->packs() * part.elements->matrix_size();
     }
     element_forces_.resize(forces);
+    first_facet_matrix_ = matrices;
+    facets_ = stiff_facets(mesh, options);
+    for (const Facet& facet : facets_) matrices += packed_index(D * facet.size(), 0);
     element_matrices_.resize(matrices);
     smallest_J_.resize(packs_);
 }
@@ -150,6 +164,7 @@ void Assembly<D>::list_node_elements(const Mesh<D>& mesh) {
 template <int D>
 void Assembly<D>::build_mass(const Mesh<D>& mesh, const Options<D>& options, const NodeGraph& graph) {
     gravity_forces_.assign(D * mesh.nodes.size(), 0.0);
+    lumped_masses_.assign(mesh.nodes.size(), 0.0);
     mass_starts_ = graph.starts;
     mass_columns_ = graph.neighbours;
     mass_values_.assign(mass_columns_.size(), 0.0);
@@ -158,10 +173,14 @@ void Assembly<D>::build_mass(const Mesh<D>& mesh, const Options<D>& options, con
         const double density = material_of_[e]->density * (D == 2 ? options.thickness : 1);
         with_element_type<D>(element.size(), [&]<class Type>(Type) {
             const auto X = coordinates<Type>(mesh, element);
+            std::array<double, Type::node_count> diagonal{};
+            double element_mass = 0;
             for (const auto& point : Type::mass_rule()) {
                 const auto s = Type::shape(point.xi);
                 const double dm = density * point.weight * reference_gradients(s, X).jacobian;
                 mass_ += dm;
+                element_mass += dm;
+                for (std::size_t a = 0; a < Type::node_count; ++a) diagonal[a] += dm * s.N[a] * s.N[a];
                 for (std::size_t a = 0; a < Type::node_count; ++a) {
                     const auto row = static_cast<std::size_t>(element[a]);
                     for (std::size_t i = 0; i < D; ++i)
@@ -174,6 +193,9 @@ void Assembly<D>::build_mass(const Mesh<D>& mesh, const Options<D>& options, con
                     }
                 }
             }
+            const double trace = std::accumulate(diagonal.begin(), diagonal.end(), 0.0);
+            for (std::size_t a = 0; a < Type::node_count; ++a)
+                lumped_masses_[std::size_t(element[a])] += element_mass * diagonal[a] / trace;
         });
     }
 }
@@ -198,22 +220,23 @@ void Assembly<D>::build_pattern(const Mesh<D>& mesh, const NodeGraph& graph) {
     }
     // Where each entry of each element matrix goes; looked up once, since the lists are made in two passes.
     std::vector<std::uint32_t> nonzero_of;
-    for (const Part& part : parts_)
-        for (const ElementIndex e : part.elements->members())
-            for (std::size_t p = 0; p < part.elements->rows(); ++p)
-                for (std::size_t q = 0; q <= p; ++q) {
-                    const Element& element = mesh.elements[std::size_t(e)];
-                    const auto [column, row] =
-                        std::minmax(equation_of_[freedom<D>(element, p)], equation_of_[freedom<D>(element, q)]);
-                    if (column < 0) {
-                        nonzero_of.push_back(no_mass);
-                        continue;
-                    }
-                    const auto first = rows_.begin() + column_starts_[static_cast<std::size_t>(column)],
-                               last = rows_.begin() + column_starts_[static_cast<std::size_t>(column) + 1];
-                    nonzero_of.push_back(
-                        static_cast<std::uint32_t>(std::lower_bound(first, last, row) - rows_.begin()));
+    const auto list_nonzeros = [&](const auto& element) {
+        for (std::size_t p = 0; p < D * element.size(); ++p)
+            for (std::size_t q = 0; q <= p; ++q) {
+                const auto [column, row] =
+                    std::minmax(equation_of_[freedom<D>(element, p)], equation_of_[freedom<D>(element, q)]);
+                if (column < 0) {
+                    nonzero_of.push_back(no_mass);
+                    continue;
                 }
+                const auto first = rows_.begin() + column_starts_[static_cast<std::size_t>(column)],
+                           last = rows_.begin() + column_starts_[static_cast<std::size_t>(column) + 1];
+                nonzero_of.push_back(static_cast<std::uint32_t>(std::lower_bound(first, last, row) - rows_.begin()));
+            }
+    };
+    for (const Part& part : parts_)
+        for (const ElementIndex e : part.elements->members()) list_nonzeros(mesh.elements[std::size_t(e)]);
+    for (const Facet& facet : facets_) list_nonzeros(facet);
     stiffness_entries_ = make_lists(rows_.size(), [&](const auto& add) {
         auto nonzero = nonzero_of.begin();
         for (const Part& part : parts_)
@@ -222,6 +245,10 @@ void Assembly<D>::build_pattern(const Mesh<D>& mesh, const NodeGraph& graph) {
                 for (std::size_t k = 0; k < part.elements->matrix_size() / lanes; ++k, ++nonzero)
                     if (*nonzero != no_mass) add(*nonzero, start + k * lanes);
             }
+        for_facets([&](const Facet& facet, std::size_t start) {
+            for (std::size_t k = 0; k < packed_index(D * facet.size(), 0); ++k, ++nonzero)
+                if (*nonzero != no_mass) add(*nonzero, start + k);
+        });
     });
 }
 
@@ -304,6 +331,15 @@ void Assembly<D>::multiply_stiffness(std::span<const double> x, std::span<double
         }
     });
     sum_at_nodes(y, loop);
+    for_facets([&](const Facet& facet, std::size_t start) {
+        const double* K = &element_matrices_[start];
+        for (std::size_t r = 0; r < D * facet.size(); ++r)
+            for (std::size_t c = 0; c <= r; ++c, ++K) {
+                const std::size_t row = freedom<D>(facet, r), column = freedom<D>(facet, c);
+                y[row] += *K * x[column];
+                if (c < r) y[column] += *K * x[row];
+            }
+    });
 }
 
 template <int D>

@@ -45,6 +45,14 @@ class Assembly {
     const std::vector<int>& column_starts() const { return column_starts_; }
     const std::vector<int>& rows() const { return rows_; }
 
+    // HRZ-lumped masses of the nodes [kg] (Hinton, Rock & Zienkiewicz, Earthq. Eng. Struct. Dyn. 4, 1976): the diagonal
+    // of each element's mass scaled to its mass. (Sums of rows would be negative at the corners of quadratic elements.)
+    const std::vector<double>& lumped_masses() const { return lumped_masses_; }
+
+    // What facets add to K (stiff_facets in surface_facets.hpp): packed lower triangles, one after the other, to be
+    // written before system_matrix; zero at first.
+    std::span<double> facet_matrices() { return std::span(element_matrices_).subspan(first_facet_matrix_); }
+
     // values = stiffness_factor × K(u) + mass_factor × M in that pattern.
     void system_matrix(std::span<const double> u, double stiffness_factor, double mass_factor, std::span<double> values,
                        BlockLoop loop);
@@ -67,6 +75,10 @@ class Assembly {
         std::vector<int> neighbours;
     };
 
+    // Calls visit(facet, where its packed matrix begins in element_matrices_).
+    template <class Visit>
+    void for_facets(const Visit& visit) const;
+
     void make_groups(const Mesh<D>& mesh, const Options<D>& options);
     void number_equations(const Mesh<D>& mesh, const Options<D>& options);
     void list_node_elements(const Mesh<D>& mesh);
@@ -85,6 +97,7 @@ class Assembly {
     std::vector<int> equation_of_;
     std::vector<std::size_t> freedoms_;
     std::vector<double> gravity_forces_;
+    std::vector<double> lumped_masses_;
     double mass_ = 0;
 
     Lists node_elements_;                              // of a node: where its x forces lie in element_forces_
@@ -98,6 +111,8 @@ class Assembly {
     Lists stiffness_entries_;                     // of a nonzero: where its parts lie in element_matrices_
     std::vector<std::uint32_t> mass_of_nonzero_;  // in mass_values_; no_mass where the directions differ
     std::vector<double> element_matrices_;
+    std::vector<Facet> facets_;
+    std::size_t first_facet_matrix_ = 0;
     std::vector<double> stiffness_diagonal_;
 };
 

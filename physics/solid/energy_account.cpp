@@ -27,7 +27,7 @@ void find_reactions(const std::vector<std::size_t>& freedoms, std::span<const do
 
 template <int D>
 double Solver<D>::Implementation::kinetic_energy(BlockLoop loop) {
-    assembly.multiply_mass(v, momentum, loop);
+    multiply_mass(v, momentum, loop);
     return 0.5 * std::inner_product(v.begin(), v.end(), momentum.begin(), 0.0) + bodies.kinetic_energy();
 }
 

@@ -11,7 +11,9 @@ template <int D>
 double Solver<D>::Implementation::evaluate_forces(BlockLoop loop) {
     const std::vector<double>& gravity = assembly.gravity_forces();
     for (std::size_t f = 0; f < u.size(); ++f) external[f] = loads[f] + gravity[f];
+    surface_loads.add_forces(time, u, external, loop);
     const double smallest_J = assembly.internal_forces(u, internal, loop);
+    for (GroundContact<D>& contact : contacts) contact.add_forces(-1, u, internal, loop);
     gather_body_forces();
     return smallest_J;
 }
@@ -29,7 +31,7 @@ void Solver<D>::Implementation::gather_body_forces() {
 // r = w_1 (F_ext_n+1 - F_int_n+1) + w_0 (F_ext_n - F_int_n) - M a
 template <int D>
 Magnitudes Solver<D>::Implementation::dynamic_residual(BlockLoop loop) {
-    assembly.multiply_mass(a, inertia, loop);
+    multiply_mass(a, inertia, loop);
     Magnitudes of;
     const std::size_t equations = assembly.equations();
     for (std::size_t e = 0; e < equations; ++e) {
@@ -66,10 +68,10 @@ Magnitudes Solver<D>::Implementation::dynamic_residual(BlockLoop loop) {
 
 // r = F_ext - F_int; the loads are those that hold the start, less and less, and the wanted ones, more and more.
 template <int D>
-Magnitudes Solver<D>::Implementation::static_residual(double load_factor) {
+Magnitudes Solver<D>::Implementation::static_residual() {
     Magnitudes of;
     const std::size_t equations = assembly.equations();
-    const auto between = [load_factor](double start, double target) {
+    const auto between = [this](double start, double target) {
         return load_factor == 1 ? target : start + load_factor * (target - start);
     };
     for (std::size_t f = 0; f < u.size(); ++f) external[f] = between(static_start[f], external[f]);

@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "physics/solid/solver_implementation.hpp"
 
@@ -28,75 +27,13 @@ namespace {
 constexpr double smallest_step_ratio = 0.7, largest_step_ratio = 1.4;
 constexpr int factorisation_cost = 10;     // linear solves with their residuals; measured 8 to 15 on plane meshes
 constexpr double newton_tolerance = 1e-5;  // of conjugate gradients: Newton corrects what is left
-constexpr double to_rounding = 1e-14;      // a system that Newton does not come back to
 constexpr int steps_when_new = 4;          // the most iterations of so many steps are what a new factorisation needs
 }  // namespace
-
-std::string NewtonResult::description() const {
-    std::ostringstream text;
-    switch (outcome) {
-        case Outcome::converged:
-            text << "converged";
-            break;
-        case Outcome::too_many_iterations:
-            text << "the residual did not fall far enough";
-            break;
-        case Outcome::inside_out:
-            text << "an element turned inside out";
-            break;
-        case Outcome::not_finite:
-            text << "the residual is not finite";
-            break;
-        case Outcome::not_positive_definite:
-            text << "the system matrix is not positive definite";
-            break;
-    }
-    text << " (residual " << first_residual << " N at first, " << last_residual << " N after " << iterations
-         << " iterations, reference force " << reference << " N)";
-    return text.str();
-}
 
 template <int D>
 bool Solver<D>::Implementation::factorise_dynamic(double dt, BlockLoop loop) {
     factor = {prepare_system(1, newmark.weight_new * newmark.beta * dt * dt, loop), dt, 0, 0, 0};
     return factor.valid;
-}
-
-// M a_n = F_ext - F_int, with the loads of the end of the step. What is prescribed has the rates of its law.
-template <int D>
-void Solver<D>::Implementation::find_initial_accelerations(BlockLoop loop) {
-    std::fill(a.begin(), a.end(), 0.0);
-    motions.set_rates(time, v, a);
-    bodies.set_rates(time);
-    bodies.place(u, v, a);
-    evaluate_forces(loop);
-    previous_external = external;
-    previous_internal = internal;
-    body_previous_external = body_external;
-    body_previous_internal = body_internal;
-    body_previous_loads = body_loads;
-    dynamic_residual(loop);
-    linearise_here();
-    factor = {};
-    if (!prepare_system(1, 0, loop) || !solve_system(to_rounding, loop))
-        throw ConvergenceError("solid: the mass matrix is not positive definite");
-    for (std::size_t e = 0; e < assembly.equations(); ++e) a[assembly.freedoms()[e]] = correction[e];
-    bodies.add_accelerations(std::span<const double>(correction).subspan(assembly.equations()));
-    bodies.place(u, v, a);
-    dynamic_residual(loop);  // for M a
-    old_v = v;
-    old_a = a;
-    old_bodies = bodies.motions();
-}
-
-// The forces at the end of the last step are those at the start of this one.
-template <int D>
-void Solver<D>::Implementation::keep_forces() {
-    std::swap(previous_external, external);
-    std::swap(previous_internal, internal);
-    std::swap(body_previous_external, body_external);
-    std::swap(body_previous_internal, body_internal);
-    std::swap(body_previous_loads, body_loads);
 }
 
 template <int D>
@@ -166,60 +103,10 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
     }
 }
 
-// Remembers the start of the step and everything that acts there.
 template <int D>
-void Solver<D>::Implementation::begin_step(double dt, std::span<const double> given_loads, BlockLoop loop) {
-    if (!(dt > 0) || !std::isfinite(dt))
-        throw std::invalid_argument("solid: the time step must be positive, it is " + std::to_string(dt));
-    take_loads(given_loads);
-    old_u = u;
-    old_v = v;
-    old_a = a;
-    old_bodies = bodies.motions();
-    if (accelerations_known) {
-        bodies.gather(inertia, body_inertia);
-        bodies.add_own_inertia(body_inertia);
-        keep_forces();
-    } else {
-        find_initial_accelerations(loop);
-    }
-    open_account(loop);
-    bodies.keep_start();
-    time += dt;
-}
-
-// Undoes begin_step and whatever followed.
-template <int D>
-void Solver<D>::Implementation::abandon_step(double old_time) {
-    time = old_time;
-    u = old_u;
-    v = old_v;
-    a = old_a;
-    bodies.set_motions(old_bodies);
-    keep_forces();
-    if (!accelerations_known) {
-        std::fill(a.begin(), a.end(), 0.0);
-        bodies.forget_accelerations();
-    }
-    assembly.multiply_mass(a, inertia, serial_loop);
-    factor = {};
-}
-
-template <int D>
-void Solver<D>::Implementation::accept_step(BlockLoop loop) {
-    close_account(loop);
-    accelerations_known = true;
-    update_positions();
-    ++statistics.steps;
-}
-
-template <int D>
-void Solver<D>::Implementation::advance(double dt, std::span<const double> given_loads, BlockLoop loop) {
-    const double old_time = time;
-    begin_step(dt, given_loads, loop);
+NewtonResult Solver<D>::Implementation::step_implicitly(double dt, BlockLoop loop) {
     for (const std::size_t f : assembly.freedoms())
         predicted_u[f] = old_u[f] + dt * old_v[f] + dt * dt * (0.5 - newmark.beta) * old_a[f];
-
     const double step_ratio = factor.valid ? dt / factor.time_step : 0;
     const bool reusable =
         step_ratio >= smallest_step_ratio && step_ratio <= largest_step_ratio && factor.excess < factorisation_cost;
@@ -230,16 +117,7 @@ void Solver<D>::Implementation::advance(double dt, std::span<const double> given
         statistics.newton_iterations += result.iterations;
         if (result.converged()) break;
     }
-    if (!result.converged()) {
-        abandon_step(old_time);
-        std::ostringstream text;
-        text << "solid: Newton failed in step " << statistics.steps + 1 << " of size " << dt
-             << " s: " << result.description()
-             << ". Reduce the time step of the solid (or the ratio p); if it fails at any step, look at the loads, the "
-                "clamps and the mesh";
-        throw ConvergenceError(text.str());
-    }
-
+    if (!result.converged()) return result;
     const int iterations = result.iterations - result.iterations_before_factor;
     if (factor.steps++ < steps_when_new)
         factor.iterations_when_new = std::max(factor.iterations_when_new, iterations);
@@ -247,9 +125,7 @@ void Solver<D>::Implementation::advance(double dt, std::span<const double> given
         factor.excess += std::max(0, iterations - factor.iterations_when_new);
     for (const std::size_t f : assembly.freedoms())
         v[f] = old_v[f] + dt * ((1 - newmark.gamma) * old_a[f] + newmark.gamma * a[f]);
-    accept_step(loop);
-    statistics.last_iterations = result.iterations;
-    statistics.last_residual = result.reference > 0 ? result.last_residual / result.reference : 0;
+    return result;
 }
 
 template struct Solver<2>::Implementation;

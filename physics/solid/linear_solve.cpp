@@ -24,15 +24,40 @@ constexpr double to_rounding = 1e-14;  // a system that Newton does not come bac
 }  // namespace
 
 template <int D>
+void Solver<D>::Implementation::keep_histories(std::vector<ContactHistory<D>>& histories) const {
+    histories.resize(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k) histories[k] = contacts[k].history();
+}
+
+template <int D>
 void Solver<D>::Implementation::linearise_here() {
     linearised.u = u;
     linearised.bodies = bodies.motions();
+    linearised.time = time;
+    linearised.ground_shifts.resize(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k) linearised.ground_shifts[k] = contacts[k].shift();
+    keep_histories(linearised.contacts);
 }
 
 template <int D>
 void Solver<D>::Implementation::linearise_at_start() {
     linearised.u = old_u;
     linearised.bodies = old_bodies;
+    linearised.time = old_time;
+    linearised.ground_shifts.resize(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k) linearised.ground_shifts[k] = contacts[k].history().shift;
+    keep_histories(linearised.contacts);
+}
+
+template <int D>
+void Solver<D>::Implementation::add_surface_tangents(BlockLoop loop) {
+    std::span<double> matrices = assembly.facet_matrices();
+    surface_loads.tangents(linearised.time, load_factor, linearised.u, matrices, loop);
+    matrices = matrices.subspan(surface_loads.matrix_size());
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        contacts[k].tangents(linearised.ground_shifts[k], linearised.u, linearised.contacts[k], matrices, loop);
+        matrices = matrices.subspan(contacts[k].matrix_size());
+    }
 }
 
 // C = B T and E = Tᵀ B T, with the own masses of the bodies. The change of T with the rotation is left out: it costs an
@@ -60,6 +85,7 @@ void Solver<D>::Implementation::assemble_border(double mass_factor, double stiff
 
 template <int D>
 bool Solver<D>::Implementation::prepare_system(double mass_factor, double stiffness_factor, BlockLoop loop) {
+    add_surface_tangents(loop);
     assembly.system_matrix(linearised.u, stiffness_factor, mass_factor, cholesky.values(), loop);
     ++statistics.matrices;
     assemble_border(mass_factor, stiffness_factor, loop);

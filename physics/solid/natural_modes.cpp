@@ -10,6 +10,10 @@ std::vector<NaturalMode> Solver<D>::natural_modes(int count, BlockLoop loop) {
     Assembly<D>& assembly = implementation_->assembly;
     const std::vector<double>& u = implementation_->u;
     std::vector<double> K(assembly.rows().size()), M(assembly.rows().size());
+    const auto of_last_matrix = implementation_->linearised;
+    implementation_->linearise_here();
+    implementation_->add_surface_tangents(loop);
+    implementation_->linearised = of_last_matrix;
     assembly.system_matrix(u, 1, 0, K, loop);
     assembly.system_matrix(u, 0, 1, M, loop);
     std::vector<Eigenmode> found;

@@ -16,7 +16,9 @@ struct NewmarkCoefficients {
     double weight_old = 0;  // of those at its start
 };
 
+// Central differences are β = 0, γ = 1/2, whatever α.
 inline NewmarkCoefficients newmark_coefficients(Scheme scheme, double alpha) {
+    if (scheme == Scheme::central_difference) return {0, 0.5, 1, 0};
     NewmarkCoefficients c{(1 - alpha) * (1 - alpha) / 4, 0.5 - alpha, 1, 0};
     if (scheme == Scheme::hht) {
         c.weight_new = 1 + alpha;

@@ -12,7 +12,7 @@ namespace aquagraph::solid {
 
 enum class MaterialLaw { saint_venant_kirchhoff, linear, neo_hookean, mooney_rivlin, uniaxial_curve };
 enum class PlaneCondition { strain, stress };
-enum class Scheme { hht, newmark };
+enum class Scheme { hht, newmark, central_difference };
 enum class LinearSolver { automatic, cholesky, conjugate_gradients };
 // Gauss points of quadratic elements: 2^D, with which they do not lock, but with which a single element, or a column of
 // hexahedra one by one across, has modes without energy; or 3^D (tetrahedra 4 or 14).
@@ -90,6 +90,34 @@ struct RigidBody {
     std::array<double, rotation_count<D>> inertia = {};     // principal, along x, y, z at first [kg m²]
 };
 
+// Pressure that stays normal to the deformed surface and counts per deformed area; positive towards the solid.
+struct Pressure {
+    std::string surface;
+    TimeFunction pressure = {};  // [Pa]
+};
+
+enum class GroundShape { plane, cylinder, sphere };  // D = 2: a cylinder is a circle
+
+// Rigid ground, which may travel.
+template <int D>
+struct Ground {
+    GroundShape shape = GroundShape::plane;
+    std::array<double, D> point{};                  // on the plane; on the axis; the centre
+    std::array<double, D> direction{};              // of any length: normal of the plane, towards the body; D = 3: axis
+    double radius = 0;                              // of a cylinder or sphere [m]
+    bool hollow = false;                            // the body is inside the cylinder or sphere
+    std::array<TimeFunction, D> displacement = {};  // of the whole [m]
+};
+
+// A surface of the solid that cannot pass through the ground.
+template <int D>
+struct Contact {
+    std::string surface;
+    Ground<D> ground;
+    double friction = 0;                 // Coulomb's coefficient
+    std::optional<double> penalty = {};  // pressure per depth [Pa/m]; if none, 10 E/h of the element behind each facet
+};
+
 template <int D>
 struct Options {
     Material material;                              // of all elements that are in no part
@@ -104,6 +132,8 @@ struct Options {
     std::vector<Clamp<D>> clamps;
     std::vector<Motion<D>> motions;
     std::vector<RigidBody<D>> rigid_bodies;
+    std::vector<Pressure> pressures;
+    std::vector<Contact<D>> contacts;
     double residual_tolerance = 1e-8;   // of the largest of |F_ext|, |F_int|, |M a| (Euclidean norms over free nodes)
     double increment_tolerance = 1e-6;  // of |u_n+1 - u_n|: bounds the displacement error that Newton leaves
     int max_iterations = 30;            // of one Newton solve

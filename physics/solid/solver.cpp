@@ -66,6 +66,7 @@ Solver<D>::Implementation::Implementation(Mesh<D> given_mesh, const Options<D>& 
       assembly(mesh, options),
       motions(mesh, options.motions),
       bodies(mesh, options),
+      surface_loads(mesh, options),
       cholesky(assembly.column_starts(), assembly.rows()),
       gradients(assembly.column_starts(), assembly.rows()),
       border(assembly.equations(), bodies.unknowns().size()) {
@@ -80,6 +81,7 @@ Solver<D>::Implementation::Implementation(Mesh<D> given_mesh, const Options<D>& 
     column_product = column;
     residual.assign(assembly.equations() + bodies.unknowns().size(), 0.0);
     correction = residual;
+    for (const Contact<D>& contact : options.contacts) contacts.emplace_back(mesh, options, contact);
     update_positions();
 }
 
@@ -169,7 +171,13 @@ double Solver<D>::mass() const {
 }
 template <int D>
 double Solver<D>::largest_stable_step() const {
-    return std::numeric_limits<double>::infinity();
+    return implementation_->is_explicit() ? implementation_->largest_stable_step()
+                                          : std::numeric_limits<double>::infinity();
+}
+template <int D>
+ContactReport<D> Solver<D>::contact(std::size_t contact) const {
+    require(contact < implementation_->contacts.size(), "there is no contact " + std::to_string(contact));
+    return implementation_->contacts[contact].report(implementation_->u);
 }
 
 template <int D>
@@ -232,6 +240,11 @@ Energies Solver<D>::energies() const {
     energies.strain = self.assembly.energy(self.u);
     energies.external_work = self.account.external_work;
     energies.numerical = self.account.numerical;
+    for (const GroundContact<D>& contact : self.contacts) {
+        energies.contact += contact.stored();
+        energies.friction += contact.friction_dissipation();
+        energies.external_work += contact.ground_work();
+    }
     return energies;
 }
 

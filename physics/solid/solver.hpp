@@ -1,11 +1,12 @@
-// The elastic body as the coupling drives it: total Lagrangian finite elements with large displacements, implicit in
-// time. Give it the nodal forces at the end of a step, it gives back where the nodes are.
+// The elastic body as the coupling drives it: total Lagrangian finite elements with large displacements, implicit or
+// explicit in time. Give it the nodal forces at the end of a step, it gives back where the nodes are.
 //
 // Equation of motion at t_n+1 (C. Hermange, thesis, Centrale Nantes 2017, (3.37), (3.44); Hilber, Hughes & Taylor
 // 1977):
 //   M a_n+1 + (1 + α) F_int(u_n+1) - α F_int(u_n) = (1 + α) F_ext_n+1 - α F_ext_n          F_ext: loads and gravity
 // with Newmark's update (3.38)-(3.39), γ = 1/2 - α and β = (1 - α)²/4 (3.45)-(3.46). "Newmark" has the same γ and β
-// and no weighting of forces: M a_n+1 + F_int(u_n+1) = F_ext_n+1.
+// and no weighting of forces: M a_n+1 + F_int(u_n+1) = F_ext_n+1. Central differences: see explicit_step.cpp. F_ext
+// also has surface loads, F_int the forces of contact.
 //
 // Arrays over nodes are interleaved: x and y (and z) of node 0, those of node 1, …: D × nodes numbers. SI units;
 // loads are those on the whole thickness [N].
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "physics/block_loop.hpp"
+#include "physics/solid/contact_report.hpp"
 #include "physics/solid/mesh.hpp"
 #include "physics/solid/options.hpp"
 
@@ -35,10 +37,13 @@ struct Energies {                  // [J]
     double kinetic = 0;            // 1/2 v·M v
     double strain = 0;             // ∫ W dV, over the reference configuration
     double gravity_potential = 0;  // -F_gravity·u, zero in the reference configuration
+    double contact = 0;            // stored in the penalties
     // Since the start or the last solve_static, trapezoidal in time:
-    double external_work = 0;  // of the loads without gravity, and of what moves nodes as prescribed
+    double external_work = 0;  // of the loads without gravity, of what moves nodes as prescribed, of moving ground
+    double friction = 0;       // dissipated
     double numerical = 0;      // dissipated by the scheme
-    // kinetic + strain + gravity_potential + numerical - external_work is constant, to the third order of a step.
+    // kinetic + strain + gravity_potential + contact + friction + numerical - external_work is constant, to the third
+    // order of a step.
 };
 
 struct Statistics {
@@ -64,20 +69,22 @@ struct State {
     std::vector<double> rigid_bodies;  // of each: coordinates, velocities, accelerations, rotation matrix by rows
     bool accelerations_known = false;
     double external_work = 0, numerical_dissipation = 0;
+    std::vector<double> contacts;  // of each: shift, tractions, positions (ContactHistory), dissipation, ground's work
     Statistics statistics;
     // The factorisation in use (or the matrix, for conjugate gradients), by where it was made and how it has done
     // since: that decides when it is renewed.
     bool factor_valid = false, by_gradients = false;
     double factor_time_step = 0;  // [s]
     int factor_steps = 0, factor_iterations_when_new = 0, factor_excess = 0;
-    std::vector<double> factor_displacements, factor_rigid_bodies;
+    std::vector<double> factor_displacements, factor_rigid_bodies, factor_contacts;
+    double factor_time = 0;  // [s], of the loads
 
     template <class Archive>
     void archive(Archive& fields) {  // for a checkpoint
-        fields(time, displacements, velocities, accelerations, external_forces, internal_forces, rigid_bodies,
+        fields(time, displacements, velocities, accelerations, external_forces, internal_forces, rigid_bodies, contacts,
                accelerations_known, external_work, numerical_dissipation, statistics);
         fields(factor_valid, by_gradients, factor_time_step, factor_steps, factor_iterations_when_new, factor_excess,
-               factor_displacements, factor_rigid_bodies);
+               factor_displacements, factor_rigid_bodies, factor_contacts, factor_time);
     }
 };
 
@@ -118,7 +125,8 @@ class Solver {
     void advance(double dt, std::span<const double> external_forces, BlockLoop loop);
 
     // The lowest natural frequencies, ascending, and shapes about the present displacements, with the stiffness of
-    // large displacements there: prestress counts. Throws std::invalid_argument unless 1 <= count < free degrees of
+    // large displacements there: prestress counts. What is prescribed and the nodes of rigid bodies stay where they
+    // are; contacts that are closed stay closed. Throws std::invalid_argument unless 1 <= count < free degrees of
     // freedom, ConvergenceError if the search fails.
     std::vector<NaturalMode> natural_modes(int count, BlockLoop loop);
 
@@ -139,10 +147,14 @@ class Solver {
     std::array<double, D> reaction(const std::string& set) const;
     RigidBodyState<D> rigid_body(std::size_t body) const;  // in the order of the options
 
+    ContactReport<D> contact(std::size_t contact) const;  // in the order of the options
+
     Energies energies() const;  // computed when asked for
     Statistics statistics() const;
-    double mass() const;                 // [kg]
-    double largest_stable_step() const;  // [s]: infinite, both schemes are unconditionally stable
+    double mass() const;  // [kg]
+    // Infinite for the implicit schemes, which are unconditionally stable. Explicit: 0.9 × 2/ω_max about the state
+    // where it was first asked for, or a static solve's end [s].
+    double largest_stable_step() const;
 
     // Von Mises equivalent of the Cauchy stress, mean of an element's Gauss points [Pa]. von_mises: one per element.
     void element_stress(std::span<double> von_mises) const;

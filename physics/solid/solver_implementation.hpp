@@ -11,9 +11,11 @@
 #include "physics/solid/cholesky.hpp"
 #include "physics/solid/conjugate_gradients.hpp"
 #include "physics/solid/constraints.hpp"
+#include "physics/solid/contact.hpp"
 #include "physics/solid/newmark.hpp"
 #include "physics/solid/rigid_bodies.hpp"
 #include "physics/solid/solver.hpp"
+#include "physics/solid/surface_loads.hpp"
 
 namespace aquagraph::solid {
 
@@ -69,34 +71,46 @@ struct Solver<D>::Implementation {
     double evaluate_forces(BlockLoop loop);       // at u and `time`; returns the smallest det F
     void gather_body_forces();                    // from those of the nodes
     Magnitudes dynamic_residual(BlockLoop loop);  // of forces that are evaluated
-    Magnitudes static_residual(double load_factor);
+    Magnitudes static_residual();
 
     // linear_solve.cpp: the system B = m M + k K at `linearised`, bordered by the rigid bodies; by a factor of B or by
     // conjugate gradients, whichever is cheaper
     void linearise_here();
+    void keep_histories(std::vector<ContactHistory<D>>& histories) const;              // of the contacts
     void linearise_at_start();                                                         // of the step
     bool prepare_system(double mass_factor, double stiffness_factor, BlockLoop loop);  // false: not positive definite
+    void add_surface_tangents(BlockLoop loop);
     void assemble_border(double mass_factor, double stiffness_factor, BlockLoop loop);
     bool gradients_are_cheaper(double stiffness_factor) const;
     bool factorise();                                              // B; false: not positive definite
     bool solve_system(double gradient_tolerance, BlockLoop loop);  // residual -> correction
     bool solve_linear(std::span<const double> b, std::span<double> x, BlockLoop loop, double gradient_tolerance);  // B
 
-    // implicit_step.cpp
+    // step.cpp: what all schemes do
     void advance(double dt, std::span<const double> loads, BlockLoop loop);
     void begin_step(double dt, std::span<const double> loads, BlockLoop loop);
-    void abandon_step(double old_time);
+    void abandon_step();
     void accept_step(BlockLoop loop);
     void keep_forces();
     void find_initial_accelerations(BlockLoop loop);
+    void multiply_mass(std::span<const double> x, std::span<double> y, BlockLoop loop) const;  // of the scheme
+
+    // explicit_step.cpp
+    bool is_explicit() const { return options.scheme == Scheme::central_difference; }
+    NewtonResult step_explicitly(double dt, BlockLoop loop);
+    bool solve_lumped(BlockLoop loop);  // residual -> correction; false: a body without inertia
+    double largest_stable_step();
+
+    // implicit_step.cpp
+    NewtonResult step_implicitly(double dt, BlockLoop loop);
     NewtonResult solve_step(double dt, Attempt attempt, BlockLoop loop);
     bool factorise_dynamic(double dt, BlockLoop loop);  // false: not positive definite
     void correct_accelerations(double to_displacement);
 
     // static_equilibrium.cpp
     void solve_static(std::span<const double> loads, BlockLoop loop);
-    NewtonResult solve_increment(double load_factor, bool predict, BlockLoop loop);
-    bool move_held(double load_factor, bool predict, BlockLoop loop);
+    NewtonResult solve_increment(double part, bool predict, BlockLoop loop);
+    bool move_held(bool predict, BlockLoop loop);
     bool correct_displacements(BlockLoop loop);  // false: not positive definite
     double size_of_displacements() const;
 
@@ -117,11 +131,14 @@ struct Solver<D>::Implementation {
     Assembly<D> assembly;
     PrescribedMotions<D> motions;
     RigidBodies<D> bodies;
+    SurfaceLoads<D> surface_loads;
+    std::vector<GroundContact<D>> contacts;
     Cholesky cholesky;
     ConjugateGradients gradients;
     Border border;
 
-    double time = 0;
+    double time = 0, old_time = 0;
+    double load_factor = 1;  // of the loads on surfaces: less than 1 on the way of a static solve
     // D × nodes
     std::vector<double> u, v, a, positions;
     std::vector<double> loads;                        // given for the end of the step
@@ -140,6 +157,7 @@ struct Solver<D>::Implementation {
     // Over the coordinates of the rigid bodies: generalised forces as those of the nodes above.
     using BodyMotions = std::vector<typename RigidBodies<D>::Motion>;
     BodyMotions old_bodies, static_start_bodies;
+    std::vector<ContactHistory<D>> static_start_contacts;
     std::vector<double> body_external, body_internal, body_inertia, body_previous_external, body_previous_internal;
     std::vector<double> body_loads, body_previous_loads;
     std::vector<double> body_static_start;
@@ -147,9 +165,13 @@ struct Solver<D>::Implementation {
     struct Linearisation {  // where a tangent is taken
         std::vector<double> u;
         BodyMotions bodies;
+        double time = 0;
+        std::vector<std::array<double, D>> ground_shifts;
+        std::vector<ContactHistory<D>> contacts;
         bool operator==(const Linearisation&) const = default;
     };
     Linearisation linearised;
+    double stable_step = 0;  // once computed [s]
 
     bool accelerations_known = false;
     Account account;

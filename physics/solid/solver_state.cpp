@@ -37,6 +37,20 @@ void read(const std::vector<double>& flat, std::vector<typename RigidBodies<D>::
     }
 }
 
+template <int D>
+void write(const ContactHistory<D>& history, std::vector<double>& flat) {
+    flat.insert(flat.end(), history.shift.begin(), history.shift.end());
+    flat.insert(flat.end(), history.tractions.begin(), history.tractions.end());
+    flat.insert(flat.end(), history.positions.begin(), history.positions.end());
+}
+
+template <int D>
+void read(std::vector<double>::const_iterator& from, ContactHistory<D>& history) {
+    for (double& x : history.shift) x = *from++;
+    for (double& x : history.tractions) x = *from++;
+    for (double& x : history.positions) x = *from++;
+}
+
 }  // namespace
 
 template <int D>
@@ -49,6 +63,11 @@ void Solver<D>::save(State& state) const {
     state.external_forces = self.external;
     state.internal_forces = self.internal;
     write<D>(self.bodies.motions(), state.rigid_bodies);
+    state.contacts.clear();
+    for (const GroundContact<D>& contact : self.contacts) {
+        write<D>(contact.history(), state.contacts);
+        state.contacts.insert(state.contacts.end(), {contact.friction_dissipation(), contact.ground_work()});
+    }
     state.accelerations_known = self.accelerations_known;
     state.external_work = self.account.external_work;
     state.numerical_dissipation = self.account.numerical;
@@ -61,6 +80,13 @@ void Solver<D>::save(State& state) const {
     state.factor_excess = self.factor.excess;
     state.factor_displacements = self.linearised.u;
     write<D>(self.linearised.bodies, state.factor_rigid_bodies);
+    state.factor_time = self.linearised.time;
+    state.factor_contacts.clear();
+    for (std::size_t k = 0; k < self.linearised.contacts.size(); ++k) {
+        write<D>(self.linearised.contacts[k], state.factor_contacts);
+        const auto& shift = self.linearised.ground_shifts[k];
+        state.factor_contacts.insert(state.factor_contacts.end(), shift.begin(), shift.end());
+    }
 }
 
 template <int D>
@@ -72,14 +98,26 @@ void Solver<D>::restore(const State& state) {
                                                     " components, this mesh has " + std::to_string(self.u.size()));
     auto motions = self.bodies.motions();
     read<D>(state.rigid_bodies, motions);
+    std::vector<ContactHistory<D>> histories;
+    self.keep_histories(histories);  // for their sizes
+    std::size_t numbers = 2 * histories.size();
+    for (const auto& history : histories) numbers += D + history.tractions.size() + history.positions.size();
+    require(state.contacts.size() == numbers, "the saved state has other contacts");
     self.bodies.set_motions(motions);
+    auto from = state.contacts.begin();
+    for (std::size_t k = 0; k < histories.size(); ++k) {
+        read<D>(from, histories[k]);
+        self.contacts[k].set_history(histories[k], state.displacements);
+        self.contacts[k].reset_energies(from[0], from[1]);
+        from += 2;
+    }
     self.time = state.time;
     self.u = state.displacements;
     self.v = state.velocities;
     self.a = state.accelerations;
     self.external = state.external_forces;
     self.internal = state.internal_forces;
-    self.assembly.multiply_mass(self.a, self.inertia, serial_loop);
+    self.multiply_mass(self.a, self.inertia, serial_loop);
     self.gather_body_forces();
     self.accelerations_known = state.accelerations_known;
     self.account.external_work = state.external_work;
@@ -96,8 +134,14 @@ void Solver<D>::Implementation::restore_factor(const State& state) {
         return;
     }
     require(state.factor_displacements.size() == u.size(), "the saved factorisation is of another number of nodes");
-    Linearisation saved{state.factor_displacements, bodies.motions()};
+    Linearisation saved{state.factor_displacements, bodies.motions(), state.factor_time, {}, {}};
     read<D>(state.factor_rigid_bodies, saved.bodies);
+    keep_histories(saved.contacts);
+    auto from = state.factor_contacts.begin();
+    for (ContactHistory<D>& history : saved.contacts) {
+        read<D>(from, history);
+        for (double& x : saved.ground_shifts.emplace_back()) x = *from++;
+    }
     const bool in_use = factor.valid && factor.time_step == state.factor_time_step && linearised == saved;
     if (!in_use) {
         linearised = std::move(saved);

@@ -17,14 +17,17 @@ constexpr int easy_iterations = 6;
 // Newton at start + load_factor (target - start). Converged: |r| <= residual_tolerance × max(|F_ext|, |F_int|) and the
 // last correction, squared by Newton's convergence, is below increment_tolerance × |u|; or rounding is reached.
 template <int D>
-NewtonResult Solver<D>::Implementation::solve_increment(double load_factor, bool predict, BlockLoop loop) {
+NewtonResult Solver<D>::Implementation::solve_increment(double part, bool predict, BlockLoop loop) {
     NewtonResult result;
+    load_factor = part;
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+        contacts[k].place_ground(static_start_contacts[k].shift, time, part);
     using Outcome = NewtonResult::Outcome;
     double relative_correction = 1;
-    if (!move_held(load_factor, predict, loop)) return result.outcome = Outcome::not_positive_definite, result;
+    if (!move_held(predict, loop)) return result.outcome = Outcome::not_positive_definite, result;
     for (;; ++result.iterations) {
         const double smallest_J = evaluate_forces(loop);
-        const Magnitudes of = static_residual(load_factor);
+        const Magnitudes of = static_residual();
         result.last_residual = std::sqrt(of.residual);
         result.reference = of.reference();
         if (result.iterations == 0) result.first_residual = result.last_residual;
@@ -66,12 +69,12 @@ double Solver<D>::Implementation::size_of_displacements() const {
 // Takes what is prescribed to its place. With `predict` the rest follows by one linear step, r - K Δu: elements beside
 // the moved nodes would be crushed before Newton could begin. False: not positive definite.
 template <int D>
-bool Solver<D>::Implementation::move_held(double load_factor, bool predict, BlockLoop loop) {
+bool Solver<D>::Implementation::move_held(bool predict, BlockLoop loop) {
     if (motions.freedoms().empty() && bodies.prescribed().empty()) return true;
     if (predict) {
         linearise_here();
         evaluate_forces(loop);
-        static_residual(load_factor);
+        static_residual();
         if (!prepare_system(0, 1, loop)) return false;
     }
     motions.ramp(time, load_factor, static_start_u, u);
@@ -95,6 +98,8 @@ void Solver<D>::Implementation::solve_static(std::span<const double> given_loads
     static_start_u = u;
     static_start_bodies = bodies.motions();
     factor = {};
+    keep_histories(static_start_contacts);
+    for (GroundContact<D>& contact : contacts) contact.place_ground(contact.history().shift, time, 0);
     evaluate_forces(loop);
     static_start = internal;
     body_static_start = body_internal;
@@ -112,6 +117,7 @@ void Solver<D>::Implementation::solve_static(std::span<const double> given_loads
         const NewtonResult result = solve_increment(next, last_increment == 0, loop);
         statistics.newton_iterations += result.iterations;
         if (result.converged()) {
+            for (GroundContact<D>& contact : contacts) contact.accept();
             std::swap(u_before, u_reached);
             u_reached = u;
             std::swap(bodies_before, bodies_reached);
@@ -127,6 +133,8 @@ void Solver<D>::Implementation::solve_static(std::span<const double> given_loads
         if (increment >= smallest_increment) continue;
         u = static_start_u;
         bodies.set_motions(static_start_bodies);
+        for (std::size_t k = 0; k < contacts.size(); ++k) contacts[k].set_history(static_start_contacts[k], u);
+        load_factor = 1;
         external = start_external;
         internal = start_internal;
         std::ostringstream text;
@@ -143,8 +151,10 @@ void Solver<D>::Implementation::solve_static(std::span<const double> given_loads
     std::fill(a.begin(), a.end(), 0.0);
     std::fill(inertia.begin(), inertia.end(), 0.0);
     bodies.come_to_rest();
+    for (GroundContact<D>& contact : contacts) contact.reset_energies(0, 0);
     accelerations_known = false;
     account = {};
+    stable_step = 0;
     update_positions();
 }
 
