@@ -50,6 +50,17 @@ double time_evaluation(fluid::Fluid<D>& fluid, tasks::Executor& executor) {
     return times[times.size() / 2];
 }
 
+const char* load_text(coupling::LoadMethod load) {
+    switch (load) {
+        case coupling::LoadMethod::averaged_pressure:
+            return "averaged-pressure";
+        case coupling::LoadMethod::energy_conservative:
+            return "energy-conservative";
+        default:
+            return "force-conservative";
+    }
+}
+
 void print_filling(std::ostream& out, const FilledBody& body) {
     if (body.key.starts_with("fluid.box")) return;  // whole cells
     out << fmt::format("water      {}: {} particles, {:.4g} of {:.4g}, {:+.2f} %", body.key, body.particles,
@@ -120,8 +131,10 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
             limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
                                                  fluid.viscosity_of_step()));
-        const bool cps = model->interface && scene.coupling.algorithm == io::CouplingAlgorithm::cps;
-        const double step = (cps ? scene.coupling.step_fraction : 1) * limits.step();
+        using Algorithm = io::CouplingAlgorithm;
+        const Algorithm algorithm = scene.coupling.algorithm;
+        const bool fixed = model->interface && algorithm != Algorithm::css;
+        const double step = (fixed ? scene.coupling.step_fraction : 1) * limits.step();
         const double steps = std::ceil(scene.end_time / step);
         const double n = double(std::max<std::size_t>(1, fluid.particles.count));
         const double evaluation = time_evaluation(fluid, executor);
@@ -138,9 +151,12 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
                                model->walls->ghosts.size());
         if (model->solid) print_solid(out, scene, model->solid->mesh());
         if (model->interface)
-            out << fmt::format("coupling   {}, p = {}, force-conservative load on {} nodes\n",
-                               cps ? "CPS (fluid and solid side by side)" : "CSS (solid after fluid)",
-                               scene.coupling.ratio, model->interface->surface.vertices());
+            out << fmt::format("coupling   {}, p {} {}, {} load on {} nodes\n",
+                               algorithm == Algorithm::cps   ? "CPS (fluid and solid side by side)"
+                               : algorithm == Algorithm::css ? "CSS (solid after fluid)"
+                                                             : "iterated until both agree",
+                               scene.coupling.ratio_control ? "up to" : "=", scene.coupling.ratio,
+                               load_text(scene.coupling.load), model->interface->surface.vertices());
         out << fmt::format("time       {:g} s in about {:.0f} steps of {:.3g} s ({})\n", scene.end_time, steps, step,
                            limits.name());
         out << fmt::format("memory     {:.1f} MB, {:.0f} bytes per particle\n", bytes_per_particle(fluid) * n / 1e6,

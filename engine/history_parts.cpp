@@ -84,14 +84,64 @@ HistoryPart energy_balance(const Model<D>& model) {
             initial};
 }
 
+// With the ledger also gravity's energy, and what the time integration has taken out: work of the loads minus what the
+// body has gained.
 template <int D>
-HistoryPart solid_energies(const solid::Solver<D>& solid) {
+HistoryPart solid_energies(const solid::Solver<D>& solid, const coupling::Interface* interface) {
     const std::string unit = per_depth<D>("J");
-    return {{{"solid_kinetic_energy", unit}, {"solid_strain_energy", unit}, {"solid_external_work", unit}},
-            [&solid](std::vector<double>& row) {
-                const solid::Energies energies = solid.energies();
-                row.insert(row.end(), {energies.kinetic, energies.strain, energies.external_work});
-            }};
+    HistoryPart part{{{"solid_kinetic_energy", unit}, {"solid_strain_energy", unit}, {"solid_external_work", unit}},
+                     {}};
+    if (interface) {
+        part.columns.push_back({"solid_gravity_energy", unit});
+        part.columns.push_back({"solid_dissipated_energy", unit});
+    }
+    part.append = [&solid, interface](std::vector<double>& row) {
+        const solid::Energies e = solid.energies();
+        row.insert(row.end(), {e.kinetic, e.strain, e.external_work});
+        if (!interface) return;
+        const double gained = e.kinetic + e.strain + e.gravity_potential - interface->energy.solid_at_start;
+        row.insert(row.end(), {e.gravity_potential, e.external_work - gained});
+    };
+    return part;
+}
+
+// E_fluid/body, E_Interface; E_body/fluid is the body's column among the works of walls.
+HistoryPart interface_energies(const coupling::Interface& interface) {
+    HistoryPart part{{{"interface_from_body_energy", "J/m"}, {"interface_energy", "J/m"}}, {}};
+    const bool corrected = interface.method == coupling::LoadMethod::energy_conservative;
+    if (corrected) part.columns.push_back({"load_correction", ""});
+    part.append = [&interface, corrected](std::vector<double>& row) {
+        row.insert(row.end(), {interface.energy.from_body, interface.energy.of_interface()});
+        if (corrected) row.push_back(interface.correction.epsilon);
+    };
+    return part;
+}
+
+// Water and body together, without what both have dissipated: the rigid walls' work and E_Interface are all that can
+// change it, and the residual is what this misses.
+HistoryPart total_balance(const Model<2>& model) {
+    auto initial = std::make_shared<std::vector<double>>();  // of the first row
+    return {{{"total_energy_change", "J/m"}, {"total_energy_residual", "J/m"}},
+            [&model, initial](std::vector<double>& row) {
+                const fluid::EnergyLedger& ledger = model.fluid->ledger;
+                const fluid::FluidEnergies state = energies_of(model);
+                const solid::Energies body = model.solid->energies();
+                const double now = state.kinetic + state.potential + ledger.sum.compression + ledger.sum.displacement +
+                                   ledger.lost + body.kinetic + body.strain + body.gravity_potential;
+                if (initial->empty()) initial->push_back(now);
+                const coupling::InterfaceEnergy& interface = model.interface->energy;
+                const double dissipated =
+                                 ledger.sum.dissipation + ledger.sum.viscous + body.external_work -
+                                 (body.kinetic + body.strain + body.gravity_potential - interface.solid_at_start),
+                             rigid = ledger.sum.walls - interface.to_fluid;
+                row.insert(row.end(), {now - initial->front(),
+                                       now - initial->front() + dissipated - rigid - interface.of_interface()});
+            },
+            initial};
+}
+
+HistoryPart ratio(const coupling::RatioControl& control) {
+    return {{{"coupling_ratio", ""}}, [&control](std::vector<double>& row) { row.push_back(control.p); }};
 }
 
 template <int D>
@@ -132,7 +182,19 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
     for (const fluid::WallWork<D>& work : model.wall_works)
         parts.push_back({{{work.name + "_work", per_depth<D>("J")}},
                          [&work](std::vector<double>& row) { row.push_back(work.ledger.sum.walls); }});
-    if (model.solid) parts.push_back(solid_energies(*model.solid));
+    const coupling::Interface* interface = model.interface ? &*model.interface : nullptr;
+    if (interface && interface->keeps_energy) parts.push_back(interface_energies(*interface));
+    if (model.solid)
+        parts.push_back(solid_energies(*model.solid, interface && interface->keeps_energy ? interface : nullptr));
+    if constexpr (D == 2)
+        if (interface && interface->keeps_energy && model.fluid->ledger.kept) parts.push_back(total_balance(model));
+    if (interface && scene.coupling.algorithm == io::CouplingAlgorithm::iterated)
+        parts.push_back(
+            {{{"coupling_iterations", ""}, {"coupling_residual", ""}}, [interface](std::vector<double>& row) {
+                 row.insert(row.end(),
+                            {double(interface->fixed_point.iterations()), interface->fixed_point.residual()});
+             }});
+    if (interface && interface->ratio.regulated) parts.push_back(ratio(interface->ratio));
     if (model.fluid) parts.push_back(particle_figures(*model.fluid));
     if (model.fluid && !FieldColumns(scene).columns().empty()) parts.push_back(fields(scene, model));
     return parts;

@@ -16,7 +16,12 @@
 //   FE Newton solve                            CPS reads the loads of the last exchange: nothing above holds it up, and
 //                                              it runs beside the fluid. CSS reads the loads just computed: one edge
 //                                              more, and it waits for the fluid.
-//   exchange
+//   interface energy                           where the scene or the load asks for it
+//   exchange -> ratio control                  where p is regulated
+//
+// The iterated algorithm fixes Δt as CPS does, keeps the state, and runs the steps, the loads and a solve that reads
+// them over and over, from the same start and with another guess of where the wet nodes will be at the end, until the
+// solid agrees with the guess; then comes the exchange.
 //
 // A body without water has a step of its own: structural_step() in engine/body_parts.hpp.
 #include "engine/listings.hpp"
@@ -25,6 +30,7 @@
 #include "tasks/body_force.hpp"
 #include "tasks/fluid_pass.hpp"
 #include "tasks/flux_walls.hpp"
+#include "tasks/iteration.hpp"
 #include "tasks/neighbours.hpp"
 #include "tasks/solid_step.hpp"
 #include "tasks/stepping.hpp"
@@ -60,11 +66,12 @@ class Listing {
             const std::string name = "stage " + std::to_string(stage + 1);
             group(label + ", " + name);
             evaluation(fluid.integration.stage_time(stage), name, stage == 0);
-            if (fluid.ledger.kept) ledger(stage, name);
+            ledger(stage, name);
             add(tasks::integration_stage(fluid, model_.clock, stage));
         }
         group(label + ", end");
-        if (moving() && fluid.integration.stage_time(fluid.integration.stages() - 1) < 1) wall_motion(1, "end");
+        if (moving() && fluid.integration.stage_time(fluid.integration.stages() - 1) < 1)
+            wall_motion(1, "end", nullptr);
         if (model_.walls) add(tasks::wall_contact(fluid, *model_.walls, label));
         if (model_.flux_walls) add(tasks::wall_contact(fluid, *model_.flux_walls, label));
         add(tasks::advance_clock(model_.clock, label));
@@ -72,11 +79,11 @@ class Listing {
     }
 
     void lists(const std::string& label) {
+        coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
         if (model_.flux_walls) {
-            add(tasks::neighbour_search(*model_.fluid, *model_.flux_walls, moving(), model_.clock, label));
+            add(tasks::neighbour_search(*model_.fluid, *model_.flux_walls, moving(), interface, model_.clock, label));
             return;
         }
-        coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
         fluid::GhostWalls<D>* walls = model_.walls ? &*model_.walls : nullptr;
         add(tasks::neighbour_search(*model_.fluid, walls, moving(), interface, model_.clock, label));
     }
@@ -100,8 +107,9 @@ class Listing {
         if (model_.driving_force) add(tasks::driving_force<D>(fluid, *model_.driving_force, name));
     }
 
+    // Energies, where the scene asks for them or the load needs them.
     void ledger(int stage, const std::string& name) {
-        add(tasks::energy_ledger(*model_.fluid, model_.clock, stage, name));
+        if (model_.fluid->ledger.kept) add(tasks::energy_ledger(*model_.fluid, model_.clock, stage, name));
         if (!model_.wall_works.empty())
             add(tasks::wall_work(*model_.fluid, *model_.walls, model_.wall_works, model_.clock, stage, name));
     }
@@ -120,33 +128,58 @@ class Listing {
 
     // Walls and ghosts at `fraction` of the present step.
     void boundary(double fraction, const std::string& label) {
-        if (model_.flux_walls) {
-            if (moving()) wall_motion(fraction, label);
-            add(tasks::wall_gamma(*model_.fluid, *model_.flux_walls, label));
-        }
-        if (!model_.walls) return;
         const coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
-        if (interface || moving())
-            add(tasks::wall_motion(*model_.walls, moving(), interface, model_.clock, fraction, label));
-        add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
+        if ((model_.walls || model_.flux_walls) && (interface || moving())) wall_motion(fraction, label, interface);
+        if (model_.flux_walls) add(tasks::wall_gamma(*model_.fluid, *model_.flux_walls, label));
+        if (model_.walls) add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
     }
 
     void loads() requires(D == 2) {
+        if (model_.interface->method == coupling::LoadMethod::averaged_pressure) {
+            wall_motion(0, "interface", &*model_.interface);
+            add(tasks::averaged_loads(*model_.fluid, panels_of(model_), *model_.interface));
+            return;
+        }
+        if (model_.flux_walls) {
+            evaluation(0, "interface", false);
+            add(tasks::interface_loads(*model_.fluid, *model_.flux_walls, *model_.interface));
+            return;
+        }
         boundary(0, "interface");
         add(tasks::interface_gradients(*model_.fluid, *model_.interface));
         add(tasks::ghost_gradients(*model_.fluid, *model_.walls, "interface"));
         add(tasks::interface_loads(*model_.fluid, *model_.walls, *model_.interface));
     }
 
+    void solve(tasks::LoadsOf loads_read) requires(D == 2) {
+        group("exchange");
+        loads();
+        add(tasks::newton_solve(*model_.solid, *model_.interface, model_.clock, loads_read));
+    }
+
+    void exchange(tasks::LoadsOf loads_read) requires(D == 2) {
+        coupling::Interface& interface = *model_.interface;
+        group("exchange");
+        if (interface.keeps_energy)
+            add(tasks::interface_energy(*model_.solid, interface, body_work(model_)->ledger.sum.walls, loads_read));
+        add(tasks::exchange(*model_.solid, interface, model_.clock));
+        if (interface.ratio.regulated) add(tasks::regulate_ratio(interface));
+    }
+
+    tasks::IteratedParts iterated_parts() requires(D == 2) {
+        return {*model_.fluid, *model_.walls,     moving(),    model_.wall_works,
+                *model_.solid, *model_.interface, model_.clock};
+    }
+
     std::vector<Task> take() { return std::move(tasks_); }
 
   private:
-    // Of walls that move by themselves alone.
-    void wall_motion(double fraction, const std::string& label) {
+    // interface: null where only the walls that move by themselves are moved.
+    void wall_motion(double fraction, const std::string& label, const coupling::Interface* interface) {
         if (model_.flux_walls)
-            add(tasks::wall_motion(*model_.flux_walls, *moving(), model_.clock, fraction, label));
+            add(tasks::wall_motion<D>(*model_.flux_walls, moving(), interface, model_.clock, fraction, label));
         else
-            add(tasks::wall_motion<D>(*model_.walls, moving(), nullptr, model_.clock, fraction, label));
+            add(tasks::wall_motion<D>(*model_.walls, moving(), interface, model_.clock, fraction, label));
     }
     const fluid::MovingWalls<D>* moving() const { return model_.moving.empty() ? nullptr : &model_.moving; }
 
@@ -158,31 +191,49 @@ class Listing {
 }  // namespace
 
 template <int D>
-std::vector<Task> coupling_cycle(Model<D>& model, const io::CouplingScene& coupling) {
-    if (model.structure) return structural_step(model);
-    Listing<D> listing(model);
+CycleListing coupling_cycle(Model<D>& model, const io::CouplingScene& coupling, int p) {
+    if (model.structure) return {{}, structural_step(model), {}, false};
+    using Algorithm = io::CouplingAlgorithm;
     const bool coupled = model.interface.has_value();
-    const bool cps = coupled && coupling.algorithm == io::CouplingAlgorithm::cps;
-    const int p = coupled ? coupling.ratio : 1;
+    const bool fixed = coupled && coupling.algorithm != Algorithm::css;
+    Listing<D> begin(model), steps(model), end(model);
+    const bool iterated = coupled && coupling.algorithm == Algorithm::iterated;
 
-    if (cps)
-        listing.add(tasks::time_step(*model.fluid, model.clock,
-                                     {.fraction = coupling.step_fraction, .steps = p, .whole_cycle = true}, ""));
+    if (fixed) (iterated ? begin : steps).add(tasks::cycle_step(*model.fluid, model.clock, model.cycle_step, p));
+    if constexpr (D == 2)
+        if (iterated) {
+            begin.add(tasks::begin_iterations(begin.iterated_parts(), model.cycle_start));
+            steps.add(tasks::back_to_start(steps.iterated_parts(), model.cycle_start));
+        }
     for (int step = 1; step <= p; ++step) {
         const std::string label = "step " + std::to_string(step);
-        listing.group(label);
-        if (!cps) listing.add(tasks::time_step(*model.fluid, model.clock, {.first_of_cycle = step == 1}, label));
-        listing.fluid_step(label);
+        steps.group(label);
+        if (!fixed) steps.add(tasks::time_step(*model.fluid, model.clock, step == 1, label));
+        steps.fluid_step(label);
     }
-    if constexpr (D == 2) {
+    if constexpr (D == 2)
         if (coupled) {
-            listing.group("exchange");
-            listing.loads();
-            listing.add(tasks::newton_solve(*model.solid, *model.interface, model.clock,
-                                            cps ? tasks::LoadsOf::last_exchange : tasks::LoadsOf::this_cycle));
-            listing.add(tasks::exchange(*model.solid, *model.interface, model.clock));
+            const auto loads =
+                coupling.algorithm == Algorithm::cps ? tasks::LoadsOf::last_exchange : tasks::LoadsOf::this_cycle;
+            steps.solve(loads);
+            if (iterated) steps.add(tasks::relaxation(steps.iterated_parts(), model.cycle_start));
+            (iterated ? end : steps).exchange(loads);
         }
-    }
+    return {begin.take(), steps.take(), end.take(), iterated};
+}
+
+template <int D>
+std::vector<Task> coupling_cycle(Model<D>& model, const io::CouplingScene& coupling) {
+    CycleListing cycle = coupling_cycle(model, coupling, model.interface ? model.interface->ratio.p : 1);
+    std::vector<Task> all = std::move(cycle.begin);
+    for (std::vector<Task>* part : {&cycle.steps, &cycle.end})
+        for (Task& task : *part) all.push_back(std::move(task));
+    return all;
+}
+
+std::vector<Task> first_loads(Model<2>& model) {
+    Listing<2> listing(model);
+    listing.loads();
     return listing.take();
 }
 
@@ -192,12 +243,14 @@ std::vector<Task> first_evaluation(Model<D>& model) {
     Listing<D> listing(model);
     listing.lists("start");
     listing.evaluation(0, "start", true);
-    if (model.fluid->ledger.kept) listing.ledger(0, "start");
+    listing.ledger(0, "start");
     return listing.take();
 }
 
 template std::vector<Task> first_evaluation(Model<2>&);
 template std::vector<Task> first_evaluation(Model<3>&);
+template CycleListing coupling_cycle(Model<2>&, const io::CouplingScene&, int);
+template CycleListing coupling_cycle(Model<3>&, const io::CouplingScene&, int);
 template std::vector<Task> coupling_cycle(Model<2>&, const io::CouplingScene&);
 template std::vector<Task> coupling_cycle(Model<3>&, const io::CouplingScene&);
 

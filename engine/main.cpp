@@ -8,6 +8,7 @@
 #include "engine/modes_command.hpp"
 #include "engine/run.hpp"
 #include "engine/study.hpp"
+#include "engine/trace_summary.hpp"
 #include "engine/version.hpp"
 #include "io/scene_reader.hpp"
 
@@ -61,6 +62,10 @@ int main(int argc, char** argv) {
     deck->add_option("--set", overrides, set_help)->take_all()->allow_extra_args(false);
     deck->add_option("--out", deck_file, "File (default: <scene name>.inp)");
 
+    std::filesystem::path trace_file;
+    auto* trace = app.add_subcommand("trace-summary", "Say how well fluid and solid overlap in a trace of a run");
+    trace->add_option("trace", trace_file, "File that run --trace has written")->required();
+
     std::filesystem::path study_file;
     engine::StudyOptions study_options;
     auto* study = app.add_subcommand("study", "Run a matrix of scenes, resolutions and variants: what an error costs");
@@ -86,6 +91,10 @@ int main(int argc, char** argv) {
         return code == 0 ? engine::success : engine::bad_input;
     }
     try {
+        if (trace->parsed()) {
+            engine::print(engine::summarise_trace(trace_file), std::cout);
+            return engine::success;
+        }
         if (study->parsed()) return engine::study(io::read_study(study_file), study_options, std::cout, std::cerr);
         const io::Scene scene = io::read_scene(scene_file, overrides);
         if (check->parsed()) {

@@ -86,13 +86,12 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     set_initial_fields(*model->fluid, scene);
     if (const auto& force = scene.fluid->central_force) model->central_force = {force->centre.as<D>(), force->rate};
     if (scene.fluid->driving_force) model->driving_force = scene.fluid->driving_force->as<D>();
-    if (scene.fluid->walls == io::WallMethod::normal_flux && !scene.walls.empty()) {
+    if (scene.fluid->walls == io::WallMethod::normal_flux && (!scene.walls.empty() || scene.solid)) {
         fluid::NormalFluxWalls<D>& walls = model->flux_walls.emplace();
         add_walls(scene, walls.panels);
         model->moving = moving_walls(scene, walls.panels);
         if (!model->fluid->flux.is_riemann()) walls.pressure = fluid::WallPressure::extrapolated;
         model->fluid->wall_friction = fluid::friction_factor(walls.panels, scene.fluid->support_ratio);
-        settle(scene, walls.panels, model->moving);
     } else if (!scene.walls.empty() || scene.solid || !scene.periodic.empty()) {
         fluid::GhostWalls<D>& walls = model->walls.emplace();
         add_walls(scene, walls.panels);
@@ -106,9 +105,15 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
         if (scene.solid) {
             model->solid = make_solid<2>(scene);
             model->interface = make_interface(scene, *model);
+            model->cycle_step.rule = scene.coupling.step_rule;
+            model->cycle_step.fraction = scene.coupling.step_fraction;
+            if (model->interface->keeps_energy)
+                model->wall_works.push_back(
+                    {scene.solid->name, fluid::WallForces<2>(model->interface->surface.wall()), {}});
         }
     }
     if (model->walls) settle(scene, model->walls->panels, model->moving);
+    if (model->flux_walls) settle(scene, model->flux_walls->panels, model->moving);
     return model;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/water_parts.hpp"
 #include "io/scene.hpp"
 #include "physics/clock.hpp"
+#include "physics/coupling/cycle_step.hpp"
 #include "physics/coupling/interface.hpp"
 #include "physics/fluid/body_forces.hpp"
 #include "physics/fluid/fluid.hpp"
@@ -16,6 +17,7 @@
 #include "physics/fluid/walls/wall_forces.hpp"
 #include "physics/solid/dead_loads.hpp"
 #include "physics/solid/solver.hpp"
+#include "tasks/iteration.hpp"
 
 namespace aquagraph::engine {
 
@@ -37,10 +39,14 @@ struct Model {
     std::optional<fluid::GhostWalls<D>> walls;            // ghosts …
     std::optional<fluid::NormalFluxWalls<D>> flux_walls;  // … or normal fluxes
     fluid::MovingWalls<D> moving;                         // those with a prescribed motion
-    std::vector<fluid::WallWork<D>> wall_works;           // of walls whose force is asked for, where energies are kept
+    // Of walls whose force is asked for, where energies are kept; the last one is the body's, where they are kept
+    // across the interface.
+    std::vector<fluid::WallWork<D>> wall_works;
     std::optional<solid::Solver<D>> solid;
     std::optional<Structure> structure;  // where there is no fluid
     std::optional<coupling::Interface> interface;
+    coupling::CycleStep cycle_step;
+    tasks::CycleStart cycle_start;  // of the iterated algorithm
     Clock clock;
 };
 
@@ -48,6 +54,16 @@ struct Model {
 template <int D>
 const fluid::Panels<D>& panels_of(const Model<D>& model) {
     return model.flux_walls ? model.flux_walls->panels : model.walls->panels;
+}
+template <int D>
+fluid::Panels<D>& panels_of(Model<D>& model) {
+    return model.flux_walls ? model.flux_walls->panels : model.walls->panels;
+}
+
+// What the body does to the fluid; null where energies across the interface are not kept.
+template <int D>
+const fluid::WallWork<D>* body_work(const Model<D>& model) {
+    return model.interface && model.interface->keeps_energy ? &model.wall_works.back() : nullptr;
 }
 
 // Throws io::SceneError for what only shows once meshes are read: a set that does not exist, water inside the solid.

@@ -12,7 +12,12 @@ void remake(Model<D>& model) {
     // As the neighbour search does (tasks/neighbours.cpp).
     const auto loads = [&] {
         if constexpr (D == 2)
-            if (model.interface) model.interface->rebuild(fluid, *model.walls);
+            if (model.interface) {
+                if (model.flux_walls)
+                    model.interface->rebuild(fluid, *model.flux_walls);
+                else
+                    model.interface->rebuild(fluid, *model.walls);
+            }
     };
     if (model.flux_walls)
         remake_lists(fluid, *model.flux_walls, tasks::parallel_loop, loads);

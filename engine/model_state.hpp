@@ -29,7 +29,7 @@ void archive(Archive& fields, Model<D>& model) {
     }
     if (model.interface) {
         fields.section("interface");
-        fields(*model.interface);
+        fields(*model.interface, model.cycle_step);
     }
     if (model.solid) {
         fields.section("solid");

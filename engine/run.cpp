@@ -7,18 +7,18 @@
 #include <chrono>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <optional>
 #include <system_error>
 
 #include "engine/checkpoints.hpp"
+#include "engine/cycle_graphs.hpp"
 #include "engine/diagnosis.hpp"
 #include "engine/listings.hpp"
 #include "engine/results.hpp"
 #include "engine/stop_request.hpp"
+#include "engine/trace_summary.hpp"
 #include "io/progress.hpp"
 #include "tasks/executor.hpp"
-#include "tasks/task_graph.hpp"
 #include "tasks/trace.hpp"
 
 namespace aquagraph::engine {
@@ -27,36 +27,6 @@ namespace {
 
 // 42 MB a thread, taken only with --trace: some thousand cycles of a small scene.
 constexpr std::size_t trace_events_per_thread = std::size_t{1} << 20;
-
-std::string pass_name(const std::string& task) {
-    return task.substr(0, task.find(" ("));
-}
-
-std::string family_of(const std::string& pass) {
-    if (pass == "FE Newton solve" || pass == "FE equilibrium") return "solid";
-    if (pass == "exchange" || pass == "interface loads" || pass == "wall motion") return "coupling";
-    if (pass == "history" || pass == "frames" || pass == "probes" || pass == "wall forces") return "output";
-    return "fluid";
-}
-
-// Tasks of one name, "fluxes (stage 2)", are one pass, "fluxes". In the order of the listing.
-std::vector<PassTime> passes_of(const tasks::TaskGraph& graph) {
-    std::vector<PassTime> passes;
-    std::map<std::string, std::size_t> place;
-    for (std::size_t k = 0; k < graph.size(); ++k) {
-        const std::string name = pass_name(graph.names()[k]);
-        const auto [at, is_new] = place.try_emplace(name, passes.size());
-        if (is_new) passes.push_back({.name = name, .family = family_of(name)});
-        PassTime& pass = passes[at->second];
-        const tasks::TaskStatistics statistics = graph.statistics(k);
-        pass.calls += statistics.runs;
-        pass.wall_seconds += statistics.wall_seconds;
-        pass.busy_seconds += statistics.busy_seconds;
-        if (name == "gradients" || name == "fluxes" || name == "interface loads")
-            pass.pairs += double(statistics.work_items);
-    }
-    return passes;
-}
 
 // Those of an earlier part of the run, and those of this one.
 std::vector<PassTime> together(std::vector<PassTime> passes, const std::vector<PassTime>& more) {
@@ -112,9 +82,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
     Results<D> results(scene, *model, folder, from.has_value());
     Checkpoints<D> checkpoints(scene, *model, results,
                                options.checkpoint_every.value_or(scene.output.checkpoint_interval), from);
-    std::vector<tasks::Task> listing = coupling_cycle(*model, scene.coupling);
-    for (tasks::Task& task : result_tasks(&results, results.diagnostics())) listing.push_back(std::move(task));
-    tasks::TaskGraph graph(std::move(listing), executor, trace ? &*trace : nullptr);
+    CycleGraphs<D> graphs(*model, scene, results, executor, trace ? &*trace : nullptr);
 
     RunFigures before;
     if (from) {
@@ -128,8 +96,8 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     const auto figures = [&] {
-        return RunFigures{before.wall_seconds + seconds(), executor.threads(),
-                          together(before.passes, passes_of(graph)), before.restarts};
+        return RunFigures{before.wall_seconds + seconds(), executor.threads(), together(before.passes, graphs.passes()),
+                          before.restarts};
     };
     io::RunOutcome outcome = io::RunOutcome::finished;
     std::string message;
@@ -158,7 +126,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
                 executor.execute([&] { results.measure(); });
                 break;
             }
-            graph.run();
+            graphs.run();
             if (checkpoints.is_due() && clock.time < clock.end) checkpoints.write(figures());
             if (progress) progress->update({clock.time, clock.steps, clock.step, clock.limiter});
         }
@@ -175,7 +143,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
                 message = fmt::format(
                     "{} (t = {:.6g} s, step {})\n  likely cause: the coupling is unstable, the load grows from "
                     "step to step: make αs more negative, or lower cfl or ratio; a light body in water "
-                    "needs ρ0 c0 Δt of a cycle well below its mass per area",
+                    "needs ρ0 c0 Δt of a cycle well below its mass per area, or [coupling] algorithm = \"iterated\"",
                     error.what(), clock.time, clock.steps);
         } catch (...) {
             message = fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps);
@@ -214,6 +182,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
     if (!options.quiet) {
         print_table(out, end.figures);
         print_comparisons(out, comparisons);
+        if (trace) print(summarise_trace(options.trace), out);
         out << fmt::format("{} steps in {:.2f} s on {} threads; results in {}\n", clock.steps, end.figures.wall_seconds,
                            end.figures.threads, folder.string());
     }

@@ -1,11 +1,10 @@
 #include "engine/solid_parts.hpp"
 
 #include "engine/body_parts.hpp"
+#include "engine/listings.hpp"
 #include "io/scene_reader.hpp"
 #include "physics/fluid/rebuild.hpp"
 #include "tasks/parallel_loop.hpp"
-#include "tasks/solid_step.hpp"
-#include "tasks/walls.hpp"
 
 namespace aquagraph::engine {
 
@@ -62,7 +61,7 @@ void refuse_wet_nodes(const io::Scene& scene, const Mesh& mesh) {
 
 // Where no water can come the coupling would do nothing, and say nothing.
 void refuse_out_of_reach(const io::Scene& scene, const Model<2>& model) {
-    const fluid::Panels<2>& panels = model.walls->panels;
+    const fluid::Panels<2>& panels = panels_of(model);
     const double reach = model.fluid->kernel.radius();
     for (const fluid::Panel<2>& panel : panels.panels) {
         if (!panel.wet) continue;
@@ -86,13 +85,24 @@ coupling::Interface make_interface(const io::Scene& scene, Model<2>& model) {
     refuse_water_inside(scene, model);
     refuse_wet_nodes(scene, model.solid->mesh());
     coupling::Interface interface;
+    interface.method = scene.coupling.load;
+    interface.correction.cycles = scene.coupling.energy_cycles;
+    interface.keeps_energy =
+        scene.output.energy_ledger || interface.method == coupling::LoadMethod::energy_conservative;
+    interface.fixed_point.choices.relaxation = scene.coupling.relaxation;
+    interface.fixed_point.choices.tolerance = scene.coupling.tolerance;
+    interface.fixed_point.choices.most = scene.coupling.most_iterations;
+    interface.ratio = {.regulated = scene.coupling.ratio_control,
+                       .most = scene.coupling.ratio,
+                       .p = scene.coupling.ratio_control ? 1 : scene.coupling.ratio};
     try {
         interface.surface =
-            coupling::WetSurface(model.solid->mesh(), scene.solid->wet, scene.solid->name, model.walls->panels);
+            coupling::WetSurface(model.solid->mesh(), scene.solid->wet, scene.solid->name, panels_of(model));
     } catch (const std::invalid_argument& error) {
         throw io::scene_error(scene, "solid.wet", error.what(), "name surfaces of the mesh");
     }
     refuse_out_of_reach(scene, model);
+    interface.surface.extrapolation = scene.coupling.extrapolation;
     interface.fluid_loads.assign(2 * model.solid->mesh().nodes.size(), 0.0);
     interface.solid_loads = interface.fluid_loads;
     return interface;
@@ -104,17 +114,24 @@ void start_solid(Model<2>& model, const io::Scene& scene) {
 
     // The water's load on the solid at t = 0, which the first solve of CPS reads.
     fluid::Fluid<2>& fluid = *model.fluid;
-    fluid::GhostWalls<2>& walls = *model.walls;
     coupling::Interface& interface = *model.interface;
     interface.surface.take(model.solid->positions(), model.solid->velocities());
-    interface.surface.place(walls.panels, 0);
-    rebuild_lists(fluid, &walls, tasks::parallel_loop);
-    interface.load.rebuild(fluid.particles, fluid.lists, walls);
-    for (const tasks::Task& task :
-         {tasks::interface_gradients(fluid, interface), tasks::ghost_gradients(fluid, walls, "start"),
-          tasks::interface_loads(fluid, walls, interface)})
-        task.body();
+    interface.surface.place(panels_of(model), 0);
+    if (model.flux_walls) {
+        rebuild_lists(fluid, *model.flux_walls, tasks::parallel_loop);
+        interface.rebuild(fluid, *model.flux_walls);
+    } else {
+        rebuild_lists(fluid, &*model.walls, tasks::parallel_loop);
+        interface.rebuild(fluid, *model.walls);
+    }
+    for (const tasks::Task& task : first_loads(model)) task.body();
     interface.solid_loads = interface.fluid_loads;
+    interface.ratio.begin(interface.force);
+    if (interface.keeps_energy) {
+        const solid::Energies energies = model.solid->energies();
+        interface.energy.begin(model.solid->displacements());
+        interface.energy.solid_at_start = energies.kinetic + energies.strain + energies.gravity_potential;
+    }
 }
 
 }  // namespace aquagraph::engine

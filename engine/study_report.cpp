@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "engine/study_coupling_table.hpp"
 #include "engine/version.hpp"
 #include "io/atomic_file.hpp"
 
@@ -154,6 +155,7 @@ std::string study_markdown(const io::Study& study, const std::vector<StudyResult
                          [&](const StudyResult& result) { return result.run.study_case == c; }))
             continue;
         text += fmt::format("\n### {}\n\n", study.cases[c].title.empty() ? study.cases[c].name : study.cases[c].title);
+        if (!study.cases[c].curve.empty()) text += coupling_table(study, c, results, threads) + "\n";
         text += CaseTable(study, c, results).text();
         if (c < plots.size() && !plots[c].empty())
             text += fmt::format("\n![{}: error against wall time]({})\n", study.cases[c].name, plots[c]);

@@ -9,6 +9,7 @@
 
 #include "engine/child_process.hpp"
 #include "io/atomic_file.hpp"
+#include "io/history.hpp"
 #include "io/scene_json.hpp"
 #include "io/scene_reader.hpp"
 #include "io/scene_solid_files.hpp"
@@ -69,8 +70,23 @@ std::string complaint(const std::filesystem::path& said) {
     return line.starts_with(name) ? line.substr(name.size()) : line;
 }
 
+// JSON has no NaN: null.
+std::vector<double> numbers(const nlohmann::json& json) {
+    std::vector<double> values;
+    for (const auto& value : json) values.push_back(value.is_number() ? value.get<double>() : NAN);
+    return values;
+}
+
 RunRecord record_of(const nlohmann::json& summary) {
     RunRecord record;
+    for (const auto& [name, task] : summary.at("tasks").items()) {
+        if (name == "FE Newton solve") {
+            record.solves = task.at("calls").get<long>();
+            record.solve_seconds = task.at("wall_seconds").get<double>();
+        } else {
+            record.other_seconds += task.at("thread_seconds").get<double>();
+        }
+    }
     record.wall_seconds = summary.at("wall_seconds").get<double>();
     record.steps = summary.at("steps").get<long>();
     record.particles = summary.value("particles", 0L) + summary.value("particles_removed", 0L);
@@ -98,6 +114,9 @@ std::vector<StudyRun> runs_of(const io::Study& study, bool coarse, const std::ve
         for (std::size_t level = 0; level < levels; ++level)
             for (const std::string& name : one.variants) {
                 const std::string full = one.name + "/" + name;
+                const auto variant = std::find_if(study.variants.begin(), study.variants.end(),
+                                                  [&](const io::StudyVariant& known) { return known.name == name; });
+                if (coarse && !variant->coarse) continue;
                 if (!only.empty() && std::none_of(only.begin(), only.end(), [&](const std::string& part) {
                         return full.find(part) != std::string::npos;
                     }))
@@ -106,10 +125,7 @@ std::vector<StudyRun> runs_of(const io::Study& study, bool coarse, const std::ve
                 run.study_case = c;
                 run.level = level;
                 run.resolution = one.resolutions[level];
-                run.variant =
-                    std::size_t(std::find_if(study.variants.begin(), study.variants.end(),
-                                             [&](const io::StudyVariant& variant) { return variant.name == name; }) -
-                                study.variants.begin());
+                run.variant = std::size_t(variant - study.variants.begin());
                 run.overrides = one.set;
                 const auto& set = study.variants[run.variant].set;
                 run.overrides.insert(run.overrides.end(), set.begin(), set.end());
@@ -117,6 +133,9 @@ std::vector<StudyRun> runs_of(const io::Study& study, bool coarse, const std::ve
                 io::Scene scene = io::read_scene(one.scene, run.overrides);
                 // Frames are for looking at: the first and the last, so that time is that of computing.
                 run.overrides.push_back(fmt::format("output.frame_interval={}", scene.end_time));
+                run.parallel = scene.coupling.algorithm == io::CouplingAlgorithm::cps;
+                run.ratio = scene.coupling.ratio;
+                run.step_fraction = scene.coupling.step_fraction;
                 run.content = content_of(scene, program_hash.text(), threads);
                 const auto named = [&](const io::Compare& compare) {
                     return compare.error && compare.label == one.error;
@@ -151,6 +170,13 @@ std::optional<RunRecord> make_run(const io::Study& study, const StudyRun& run, c
     } catch (const std::exception&) {  // it did not get that far
     }
     record.cpu_seconds = end.cpu_seconds;
+    if (const std::string& column = study.cases[run.study_case].curve; !column.empty()) try {
+            const io::History history = io::read_history(folder / "history.csv");
+            const auto time = history.time(), value = history.column(column);
+            record.curve = {{time.begin(), time.end()}, {value.begin(), value.end()}};
+        } catch (const std::exception& error) {
+            if (record.failure.empty() && message.empty()) message = error.what();
+        }
     if (end.timed_out)
         record.failure = fmt::format("stopped after {:g} s", study.time_limit);
     else if (end.signal != 0)
@@ -171,7 +197,11 @@ std::optional<RunRecord> kept_run(const std::filesystem::path& folder, const Stu
                          .particles = json.at("particles").get<long>(),
                          .steps = json.at("steps").get<long>(),
                          .evaluations = json.at("evaluations").get<long>(),
-                         .errors = {}};
+                         .errors = {},
+                         .curve = {json.at("curve_time"), numbers(json.at("curve"))},
+                         .solves = json.at("solves").get<long>(),
+                         .solve_seconds = json.at("solve_seconds").get<double>(),
+                         .other_seconds = json.at("other_seconds").get<double>()};
         for (const auto& error : json.at("errors"))
             record.errors.push_back({error.at("label").get<std::string>(), error.at("column").get<std::string>(),
                                      error.at("normalised").is_number() ? error.at("normalised").get<double>() : NAN});
@@ -190,6 +220,11 @@ void keep_run(const std::filesystem::path& folder, const StudyRun& run, int repe
                            {"particles", record.particles},
                            {"steps", record.steps},
                            {"evaluations", record.evaluations},
+                           {"curve_time", record.curve.time},
+                           {"curve", record.curve.value},
+                           {"solves", record.solves},
+                           {"solve_seconds", record.solve_seconds},
+                           {"other_seconds", record.other_seconds},
                            {"errors", nlohmann::json::array()}};
     for (const RunError& error : record.errors)
         json["errors"].push_back({{"label", error.label}, {"column", error.column}, {"normalised", error.normalised}});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/study_curves.hpp"
 #include "io/study_file.hpp"
 
 namespace aquagraph::engine {
@@ -16,6 +17,10 @@ struct StudyRun {
     double resolution = 0;
     std::vector<std::string> overrides;
     std::string content;  // hash of the resolved scene, the files it refers to and the program
+    // Where runs are compared with each other, of the resolved scene.
+    bool parallel = false;
+    int ratio = 1;
+    double step_fraction = 1;
 };
 
 struct RunError {
@@ -29,6 +34,10 @@ struct RunRecord {
     double wall_seconds = 0, cpu_seconds = 0;
     long particles = 0, steps = 0, evaluations = 0;  // of the right-hand side
     std::vector<RunError> errors;
+    // Where runs are compared with each other: the curve, and of coupled runs the solid's part.
+    Curve curve;
+    long solves = 0;
+    double solve_seconds = 0, other_seconds = 0;  // wall time in solves; time of all threads in everything else
 };
 
 // In the order of the study, coarse to fine. `only`: parts of "case/variant", any of which must occur in it; empty:

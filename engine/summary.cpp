@@ -44,6 +44,9 @@ nlohmann::json summary_of(const io::Scene& scene, const Model<D>& model, const R
         if (model.flux_walls) summary["gamma_at_its_floor"] = model.flux_walls->floor_count;
         summary["neighbour_list_rebuilds"] = model.fluid->rebuilds;
         summary["steps_that_outran_their_lists"] = model.fluid->outrun;
+        if (model.clock.use.allowed > 0)
+            summary["mean_step_over_largest"] = model.clock.use.taken / model.clock.use.allowed;
+        summary["cycles_with_overlong_steps"] = model.clock.use.overlong;
         summary["bytes_per_particle"] = bytes_per_particle(*model.fluid);
     }
     for (const FilledBody& body : model.water) {
@@ -66,6 +69,10 @@ nlohmann::json summary_of(const io::Scene& scene, const Model<D>& model, const R
                             {"newton_iterations", statistics.newton_iterations},
                             {"factorisations", statistics.factorisations}};
     }
+    if (model.interface && model.interface->fixed_point.total_iterations > 0)
+        summary["iterations"] = {{"total", model.interface->fixed_point.total_iterations},
+                                 {"cycles", model.interface->fixed_point.cycles},
+                                 {"unconverged_cycles", model.interface->fixed_point.unconverged}};
     for (const PassTime& pass : end.figures.passes) {
         nlohmann::json entry = {
             {"calls", pass.calls}, {"wall_seconds", pass.wall_seconds}, {"thread_seconds", pass.busy_seconds}};

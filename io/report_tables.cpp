@@ -276,10 +276,22 @@ std::string parameter_tables(const Scene& scene) {
              "{}, {}{}", box(scene.domain), scene.edge == DomainEdge::open ? "open" : "closed",
              scene.periodic.empty() ? "" : fmt::format(", periodic along {}", fmt::join(scene.periodic, ", ")))}};
     if (scene.fluid && scene.solid) {
-        rows.emplace_back("coupling",
-                          scene.coupling.algorithm == CouplingAlgorithm::cps ? "CPS (parallel)" : "CSS (sequential)");
-        rows.emplace_back("fluid steps per solid step p", fmt::format("{}", scene.coupling.ratio));
-        rows.emplace_back("step, of the CFL step", fmt::format("{:g}", scene.coupling.step_fraction));
+        const CouplingScene& coupling = scene.coupling;
+        const bool cps = coupling.algorithm == CouplingAlgorithm::cps;
+        const bool css = coupling.algorithm == CouplingAlgorithm::css;
+        rows.emplace_back("coupling", cps   ? "CPS (parallel)"
+                                      : css ? "CSS (sequential)"
+                                            : fmt::format("iterated to {:g}", coupling.tolerance));
+        rows.emplace_back("fluid steps per solid step p",
+                          fmt::format("{}{}", coupling.ratio_control ? "regulated, at most " : "", coupling.ratio));
+        std::string load(word(load_words, coupling.load));
+        std::replace(load.begin(), load.end(), '_', ' ');
+        rows.emplace_back("load", load);
+        rows.emplace_back("extrapolation of wet nodes", std::string(word(extrapolation_words, coupling.extrapolation)));
+        if (!css)
+            rows.emplace_back("step, of the CFL step",
+                              fmt::format("{:g}{}", coupling.step_fraction,
+                                          coupling.step_rule == coupling::StepRule::predicted ? ", predicted" : ""));
     }
     for (const WallScene& wall : scene.walls)
         rows.emplace_back("wall", fmt::format("{}, {}{}, {}", wall.name, shape(wall), wall.motion ? ", moves" : "",

@@ -12,6 +12,7 @@
 #include "io/point.hpp"
 #include "io/scene_geometry.hpp"
 #include "io/scene_solid.hpp"
+#include "physics/coupling/choices.hpp"
 #include "physics/fluid/choices.hpp"
 
 namespace aquagraph::io {
@@ -101,12 +102,20 @@ struct ProbeScene {
     ProbeInterpolation interpolation = ProbeInterpolation::shepard;
 };
 
-enum class CouplingAlgorithm { cps, css };
+enum class CouplingAlgorithm { cps, css, iterated };
 
 struct CouplingScene {
     CouplingAlgorithm algorithm = CouplingAlgorithm::cps;
-    int ratio = 1;               // p: fluid steps per solid step
-    double step_fraction = 0.8;  // of the CFL step, at which the steps of a cycle are fixed (6.4)
+    int ratio = 1;               // p: fluid steps per solid step; where it is regulated, its bound
+    bool ratio_control = false;  // (6.2)
+    coupling::LoadMethod load = coupling::LoadMethod::force_conservative;
+    double energy_cycles = 20;  // over which the energy conservative load averages
+    coupling::Extrapolation extrapolation = coupling::Extrapolation::linear;
+    coupling::StepRule step_rule = coupling::StepRule::fixed;
+    double step_fraction = 0.8;  // of the CFL step, at which the steps of a cycle are fixed (6.4); predicted: 1
+    coupling::Relaxation relaxation = coupling::Relaxation::quasi_newton;
+    double tolerance = 1e-3;   // of the iterations, over what the wet nodes move in the cycle
+    int most_iterations = 20;  // of a cycle
 };
 
 struct OutputScene {

@@ -208,6 +208,22 @@ Json to_json(const SolidScene& solid, int dimension) {
     return json;
 }
 
+Json to_json(const CouplingScene& coupling) {
+    Json json = {{"algorithm", word(algorithm_words, coupling.algorithm)},
+                 {"ratio", coupling.ratio},
+                 {"ratio_control", coupling.ratio_control},
+                 {"load", word(load_words, coupling.load)},
+                 {"extrapolation", word(extrapolation_words, coupling.extrapolation)},
+                 {"step_rule", word(step_rule_words, coupling.step_rule)},
+                 {"step_fraction", coupling.step_fraction}};
+    if (coupling.load == coupling::LoadMethod::energy_conservative) json["energy_cycles"] = coupling.energy_cycles;
+    if (coupling.algorithm == CouplingAlgorithm::iterated)
+        json.update({{"relaxation", word(relaxation_words, coupling.relaxation)},
+                     {"tolerance", coupling.tolerance},
+                     {"most_iterations", coupling.most_iterations}});
+    return json;
+}
+
 Json to_json(const ProbeScene& probe) {
     Json json = {{"name", probe.name}, {"point", probe.point}};
     switch (probe.quantity) {
@@ -270,10 +286,7 @@ nlohmann::json to_json(const Scene& scene) {
     for (const WallScene& wall : scene.walls) json["wall"].push_back(to_json(wall));
     if (scene.solid) json["solid"] = to_json(*scene.solid, scene.dimension);
     for (const ProbeScene& probe : scene.probes) json["probe"].push_back(to_json(probe));
-    if (scene.fluid && scene.solid)
-        json["coupling"] = {{"algorithm", scene.coupling.algorithm == CouplingAlgorithm::cps ? "cps" : "css"},
-                            {"ratio", scene.coupling.ratio},
-                            {"step_fraction", scene.coupling.step_fraction}};
+    if (scene.fluid && scene.solid) json["coupling"] = to_json(scene.coupling);
     if (!scene.constants.empty()) json["constants"] = scene.constants;
     for (const Integral& integral : scene.integrals)
         json["integral"].push_back(

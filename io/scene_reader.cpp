@@ -53,10 +53,7 @@ class Filler {
         walls();
         if (document_.count("solid")) read_solid(document_, complaints_, scene_);
         probes();
-        choose("coupling.algorithm", scene_.coupling.algorithm,
-               {{"cps", CouplingAlgorithm::cps}, {"css", CouplingAlgorithm::css}});
-        document_.take("coupling.ratio", scene_.coupling.ratio);
-        document_.take("coupling.step_fraction", scene_.coupling.step_fraction);
+        coupling(scene_.coupling);
         scene_.output.frame_interval = scene_.end_time / 100;
         document_.take("output.frame_interval", scene_.output.frame_interval);
         document_.take("output.history_interval", scene_.output.history_interval);
@@ -67,6 +64,21 @@ class Filler {
     }
 
   private:
+    void coupling(CouplingScene& coupling) {
+        choose("coupling.algorithm", coupling.algorithm, algorithm_words);
+        document_.take("coupling.ratio", coupling.ratio);
+        document_.take("coupling.ratio_control", coupling.ratio_control);
+        choose("coupling.load", coupling.load, load_words);
+        document_.take("coupling.energy_cycles", coupling.energy_cycles);
+        choose("coupling.extrapolation", coupling.extrapolation, extrapolation_words);
+        choose("coupling.step_rule", coupling.step_rule, step_rule_words);
+        if (coupling.step_rule == coupling::StepRule::predicted) coupling.step_fraction = 1;
+        document_.take("coupling.step_fraction", coupling.step_fraction);
+        choose("coupling.relaxation", coupling.relaxation, relaxation_words);
+        document_.take("coupling.tolerance", coupling.tolerance);
+        document_.take("coupling.most_iterations", coupling.most_iterations);
+    }
+
     template <class E>
     void choose(const std::string& key, E& target, std::initializer_list<std::pair<std::string_view, E>> meanings) {
         std::string word;

@@ -107,14 +107,43 @@ class Validation {
                             "choose [fluid.scheme] name = \"riemann_ale\", or no shifting");
     }
 
+    // Keys that do nothing, and loads that a scheme cannot give.
+    void coupling() {
+        const CouplingScene& coupling = scene_.coupling;
+        const auto idle = [&](const char* key, bool is_idle, const char* why, const char* help) {
+            const std::string full = std::string("coupling.") + key;
+            if (is_idle && complaints_.positions.contains(full) && !complaints_.touch(full))
+                complaints_.add(full, why, help);
+        };
+        for (const char* key : {"step_rule", "step_fraction"})
+            idle(key, coupling.algorithm == CouplingAlgorithm::css,
+                 "CSS chooses every step anew, at the CFL step: nothing is fixed beforehand",
+                 "take it out, or choose algorithm = \"cps\"");
+        for (const char* key : {"relaxation", "tolerance", "most_iterations"})
+            idle(key, coupling.algorithm != CouplingAlgorithm::iterated, "only the iterated algorithm iterates",
+                 "take it out, or choose algorithm = \"iterated\"");
+        const bool energy = coupling.load == coupling::LoadMethod::energy_conservative;
+        idle("energy_cycles", !energy, "only the energy-conservative load averages over cycles",
+             "take it out, or choose load = \"energy_conservative\"");
+        if (energy && scene_.fluid && scene_.fluid->scheme.name == fluid::Scheme::riemann_ale)
+            complaints_.add("coupling.load", "energies are only known of schemes that keep each particle's mass",
+                            "choose another [fluid.scheme], or load = \"force_conservative\"");
+    }
+
     // What walls of normal fluxes do not go with.
     void wall_method() {
         if (!scene_.fluid || scene_.fluid->walls != WallMethod::normal_flux || complaints_.touch("fluid.walls")) return;
         const FluidScene& fluid = *scene_.fluid;
         const std::string help = "take [fluid] walls = \"ghosts\"";
-        if (scene_.solid)
-            complaints_.add("fluid.walls", "walls of normal fluxes do not load a solid",
-                            help + ", or take [solid] out");
+        if (scene_.solid && scene_.coupling.load == coupling::LoadMethod::energy_conservative)
+            complaints_.add("fluid.walls",
+                            "the energy-conservative load does not know the work of walls of normal fluxes",
+                            help + ", or [coupling] load = \"force_conservative\"");
+        if (scene_.solid && scene_.coupling.algorithm == CouplingAlgorithm::iterated)
+            complaints_.add("fluid.walls",
+                            "the iterated algorithm cannot go back to the start of a cycle with walls of "
+                            "normal fluxes",
+                            help + ", or choose another [coupling] algorithm");
         if (!scene_.periodic.empty())
             complaints_.add("fluid.walls", "walls of normal fluxes have no images in a periodic domain",
                             help + ", or take [domain] periodic out");
@@ -363,6 +392,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.periodic(complaints.positions.contains("domain") && !complaints.touch("domain"));
     validate_solid(scene, complaints);
     validation.fluid_scheme();
+    validation.coupling();
     validation.wall_method();
     validation.fluid_boxes();
     validation.walls();

@@ -30,6 +30,21 @@ inline constexpr Words<fluid::ViscousOperator, 2> viscous_operator_words{
 inline constexpr Words<fluid::Transport, 3> transport_words{
     {{"none", fluid::Transport::none}, {"x_sph", fluid::Transport::x_sph}, {"shifting", fluid::Transport::shifting}}};
 
+inline constexpr Words<CouplingAlgorithm, 3> algorithm_words{
+    {{"cps", CouplingAlgorithm::cps}, {"css", CouplingAlgorithm::css}, {"iterated", CouplingAlgorithm::iterated}}};
+inline constexpr Words<coupling::Relaxation, 2> relaxation_words{
+    {{"aitken", coupling::Relaxation::aitken}, {"quasi_newton", coupling::Relaxation::quasi_newton}}};
+inline constexpr Words<coupling::LoadMethod, 3> load_words{
+    {{"averaged_pressure", coupling::LoadMethod::averaged_pressure},
+     {"force_conservative", coupling::LoadMethod::force_conservative},
+     {"energy_conservative", coupling::LoadMethod::energy_conservative}}};
+inline constexpr Words<coupling::Extrapolation, 3> extrapolation_words{
+    {{"none", coupling::Extrapolation::none},
+     {"linear", coupling::Extrapolation::linear},
+     {"quadratic", coupling::Extrapolation::quadratic}}};
+inline constexpr Words<coupling::StepRule, 2> step_rule_words{
+    {{"fixed", coupling::StepRule::fixed}, {"predicted", coupling::StepRule::predicted}}};
+
 inline constexpr Words<Slip, 3> slip_words{{{"free", Slip::free}, {"none", Slip::none}, {"symmetry", Slip::symmetry}}};
 
 inline constexpr Words<solid::MaterialLaw, 5> material_law_words{

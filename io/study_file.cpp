@@ -24,6 +24,10 @@ constexpr auto sections = std::to_array<SceneSection>({
     {"", false, true, "Before any table."},
     {"variant", true, false,
      "A named set of overrides: a scheme, a wall, an integrator. Without any the scenes run as they are."},
+    {"axis", true, false,
+     "A key and values for it. Every value goes with every value of the other axes and with every variant: names "
+     "become "
+     "`cps_p4`, of a value that is a word itself, of a number with the axis's name before it."},
     {"case", true, false, "A scene at several resolutions, in some or all of the variants."},
 });
 
@@ -47,17 +51,47 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"variant", "label", K::text, false, "", any, "", "the name", "for tables and plots"},
     {"variant", "set", K::texts, false, "", any, "", "none", "overrides, KEY=VALUE as for `--set`"},
 
+    {"axis", "name", K::text, true, "", any, "", "", "letters, digits and _, beginning with a letter; each once"},
+    {"axis", "key", K::text, true, "", any, "", "", "of the scene: coupling.ratio"},
+    {"axis", "values", K::texts, true, "", any, "", "", "what it takes in turn, as for `--set`"},
+    {"axis", "coarse", K::integer, false, "", at_least_one, "", "all", "how many of them `--coarse` runs"},
+
     {"case", "name", K::text, false, "", any, "", "folder of the scene",
      "letters, digits and _, beginning with a letter; each once"},
     {"case", "title", K::text, false, "", any, "", "title of the scene", "heading of its table"},
     {"case", "scene", K::text, true, "", any, "", "", "scene file, seen from the study's folder"},
     {"case", "set", K::texts, false, "", any, "", "none", "overrides for all runs of the case"},
-    {"case", "variants", K::texts, false, "", any, "", "all", "names of the variants that apply"},
+    {"case", "variants", K::texts, false, "", any, "", "all",
+     "names of the variants that apply; * stands for anything"},
     {"case", "resolution_key", K::text, false, "", any, "", "fluid.spacing", "the key that is varied"},
     {"case", "resolutions", K::numbers, true, "", positive, "", "", "its values, from coarse to fine"},
     {"case", "coarse", K::integer, false, "", at_least_one, "", "1", "how many of them `--coarse` runs"},
     {"case", "error", K::text, false, "", any, "", "the first comparison", "label of the [[compare]] that is drawn"},
+    {"case", "curve", K::text, false, "", any, "", "none",
+     "column of history.csv by which runs are compared with each other: the table then has their times per step, their "
+     "difference from the `reference` and whether they are stable"},
+    {"case", "reference", K::text, false, "", any, "", "the first variant",
+     "name of the variant that is taken for right"},
+    {"case", "speedup", K::text, false, "", any, "", "none",
+     "axis: times are over that of the run with its first value and all else the same"},
+    {"case", "growth", K::number, false, "", positive, "", "not looked at",
+     "a run is also unstable if its curve's range in the last quarter of the time is larger than this times that in "
+     "the "
+     "second quarter"},
+    {"case", "roughness", K::number, false, "", positive, "", "2",
+     "a run is unstable if it fails, or if its curve's total variation is larger than this times the reference's"},
 });
+
+// Whether a name fits a pattern in which * stands for anything.
+bool matches(std::string_view pattern, std::string_view name) {
+    const std::size_t star = pattern.find('*');
+    if (star == std::string_view::npos) return pattern == name;
+    if (!name.starts_with(pattern.substr(0, star))) return false;
+    const std::string_view rest = pattern.substr(star + 1);
+    for (std::size_t at = star; at <= name.size(); ++at)
+        if (matches(rest, name.substr(at))) return true;
+    return false;
+}
 
 class Reader {
   public:
@@ -72,7 +106,10 @@ class Reader {
         study_.time_limit = 3600;
         document_.take("time_limit", study_.time_limit);
         for (int i = 0; i < document_.count("variant"); ++i) variant(fmt::format("variant[{}]", i));
-        if (study_.variants.empty()) study_.variants.push_back({"as_is", "as it is", {}});
+        const bool given = !study_.variants.empty();
+        if (!given) study_.variants.push_back({"as_is", "as it is", {}, "", {}, true});
+        for (StudyVariant& variant : study_.variants) variant.base = variant.name;
+        for (int i = 0; i < document_.count("axis"); ++i) axis(fmt::format("axis[{}]", i), given || i > 0);
         for (int i = 0; i < document_.count("case"); ++i) one_case(fmt::format("case[{}]", i));
         if (study_.cases.empty() && !complaints_.touch("case"))
             complaints_.add_at({1, 1}, "case", "the study has no [[case]]",
@@ -87,6 +124,58 @@ class Reader {
         variant.label = variant.name;
         document_.take(at + ".label", variant.label);
         document_.take(at + ".set", variant.set);
+    }
+
+    // Multiplies what there is with the axis's values; `named`: their names stay in front.
+    void axis(const std::string& at, bool named) {
+        StudyAxis& axis = study_.axes.emplace_back();
+        document_.take(at + ".name", axis.name);
+        name(at + ".name", axis.name, axis_names_);
+        document_.take(at + ".key", axis.key);
+        document_.take(at + ".values", axis.values);
+        if (axis.values.empty() && !complaints_.touch(at + ".values"))
+            complaints_.add(at + ".values", "the axis has no values", "values = [\"1\", \"2\", \"4\"]");
+        axis.coarse = int(axis.values.size());
+        document_.take(at + ".coarse", axis.coarse);
+        const std::vector<StudyVariant> before = std::move(study_.variants);
+        study_.variants.clear();
+        for (const StudyVariant& variant : before)
+            for (std::size_t k = 0; k < axis.values.size(); ++k) {
+                const std::string& value = axis.values[k];
+                StudyVariant& made = study_.variants.emplace_back(variant);
+                const bool word = usable_as_constant(value);
+                std::string part = word ? value : axis.name;
+                if (!word)
+                    for (const char c : value) part += c == '-' ? 'm' : c == '.' ? '_' : c;
+                made.name = named ? variant.name + "_" + part : part;
+                const std::string label = word ? value : axis.name + " = " + value;
+                made.label = named ? variant.label + ", " + label : label;
+                made.set.push_back(axis.key + "=" + value);
+                made.place.push_back(int(k));
+                made.coarse = variant.coarse && int(k) < axis.coarse;
+            }
+    }
+
+    // Where runs are compared with each other.
+    void curve(const std::string& at, StudyCase& one) {
+        document_.take(at + ".curve", one.curve);
+        document_.take(at + ".reference", one.reference);
+        document_.take(at + ".speedup", one.speedup);
+        document_.take(at + ".roughness", one.roughness);
+        document_.take(at + ".growth", one.growth);
+        for (const char* key : {"reference", "speedup", "roughness", "growth"})
+            if (one.curve.empty() && complaints_.positions.contains(at + "." + key))
+                complaints_.add(at + "." + key,
+                                fmt::format("`{}` says how curves are compared, but there is no `curve`", key),
+                                "give `curve`, the column of history.csv");
+        if (!one.reference.empty() &&
+            std::find(one.variants.begin(), one.variants.end(), one.reference) == one.variants.end())
+            complaints_.add(at + ".reference", fmt::format("the case has no variant \"{}\"", one.reference),
+                            fmt::format("there are {}", fmt::join(one.variants, ", ")));
+        if (one.reference.empty() && !one.variants.empty()) one.reference = one.variants.front();
+        if (!one.speedup.empty() && std::none_of(study_.axes.begin(), study_.axes.end(),
+                                                 [&](const StudyAxis& axis) { return axis.name == one.speedup; }))
+            complaints_.add(at + ".speedup", fmt::format("there is no axis \"{}\"", one.speedup), "name an [[axis]]");
     }
 
     void one_case(const std::string& at) {
@@ -110,15 +199,24 @@ class Reader {
         document_.take(at + ".error", one.error);
         std::vector<std::string> known;
         for (const StudyVariant& variant : study_.variants) known.push_back(variant.name);
-        if (!document_.take(at + ".variants", one.variants)) one.variants = known;
-        for (std::size_t k = 0; k < one.variants.size(); ++k) {
-            const std::string& wanted = one.variants[k];
-            if (std::find(known.begin(), known.end(), wanted) != known.end()) continue;
-            const auto guess = nearest(wanted, known);
-            complaints_.add(fmt::format("{}.variants[{}]", at, k), fmt::format("there is no variant \"{}\"", wanted),
+        std::vector<std::string> wanted;
+        if (!document_.take(at + ".variants", wanted)) wanted = known;
+        for (std::size_t k = 0; k < wanted.size(); ++k) {
+            const auto before = one.variants.size();
+            for (const std::string& name : known)
+                if (matches(wanted[k], name) &&
+                    std::find(one.variants.begin(), one.variants.end(), name) == one.variants.end())
+                    one.variants.push_back(name);
+            if (one.variants.size() > before || std::any_of(known.begin(), known.end(), [&](const std::string& name) {
+                    return matches(wanted[k], name);
+                }))
+                continue;
+            const auto guess = nearest(wanted[k], known);
+            complaints_.add(fmt::format("{}.variants[{}]", at, k), fmt::format("there is no variant \"{}\"", wanted[k]),
                             guess ? fmt::format("did you mean \"{}\"?", *guess)
                                   : fmt::format("there are {}", fmt::join(known, ", ")));
         }
+        curve(at, one);
     }
 
     void resolutions(const std::string& key, const std::vector<double>& values) {
@@ -143,7 +241,7 @@ class Reader {
     const CheckedDocument& document_;
     Complaints& complaints_;
     Study& study_;
-    std::vector<std::string> variant_names_, case_names_;
+    std::vector<std::string> variant_names_, axis_names_, case_names_;
 };
 
 }  // namespace

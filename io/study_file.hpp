@@ -15,6 +15,16 @@ namespace aquagraph::io {
 struct StudyVariant {
     std::string name, label;
     std::vector<std::string> set;  // "fluid.scheme.reconstruction=none"
+    std::string base;              // its name before it was multiplied with the axes
+    std::vector<int> place;        // which value of each axis; empty without axes
+    bool coarse = true;            // whether the coarse version has it
+};
+
+// A key and the values that it takes: axes are multiplied with each other and with the variants.
+struct StudyAxis {
+    std::string name, key;
+    std::vector<std::string> values;
+    int coarse = 0;  // how many of the values belong to the coarse version
 };
 
 struct StudyCase {
@@ -26,6 +36,12 @@ struct StudyCase {
     std::vector<double> resolutions;    // values of that key, coarse to fine
     int coarse = 1;                     // how many of them belong to the coarse version
     std::string error;                  // label of the comparison that is drawn against time; empty: the first
+    // Where runs are compared with each other instead:
+    std::string curve;      // column of the history
+    std::string reference;  // variant whose curve is taken for right
+    std::string speedup;    // axis along whose first value a run's time is measured; empty: none
+    double growth = 0;      // a curve that swings by more at its end than this times before is unstable; 0: not asked
+    double roughness = 2;   // a curve that goes up and down more often than this times the reference's is unstable
 };
 
 struct Study {
@@ -33,7 +49,8 @@ struct Study {
     std::string name, title;
     int repeats = 1;
     double time_limit = 0;  // [s] of a run
-    std::vector<StudyVariant> variants;
+    std::vector<StudyAxis> axes;
+    std::vector<StudyVariant> variants;  // already multiplied with the axes
     std::vector<StudyCase> cases;
 };
 

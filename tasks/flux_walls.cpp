@@ -7,13 +7,15 @@
 namespace aquagraph::tasks {
 
 template <int D>
-Task wall_motion(fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>& moving, const Clock& clock,
-                 double fraction, const std::string& label) {
+Task wall_motion(fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>* moving,
+                 const coupling::Interface* interface, const Clock& clock, double fraction, const std::string& label) {
     return {.name = "wall motion (" + label + ")",
-            .reads = {resource::clock_step, resource::fluid_lists},
+            .reads = {resource::clock_step, resource::interface_motion, resource::fluid_lists},
             .writes = {resource::walls},
-            .body = [&walls, &moving, &clock, fraction] {
-                moving.place(walls.panels, clock.time + fraction * clock.step);
+            .body = [&walls, moving, interface, &clock, fraction] {
+                if (moving) moving->place(walls.panels, clock.time + fraction * clock.step);
+                if constexpr (D == 2)
+                    if (interface) interface->surface.place(walls.panels, clock.elapsed + fraction * clock.step);
                 walls.update_geometry();
             }};
 }
@@ -80,10 +82,10 @@ Task wall_contact(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls
             }};
 }
 
-template Task wall_motion(fluid::NormalFluxWalls<2>&, const fluid::MovingWalls<2>&, const Clock&, double,
-                          const std::string&);
-template Task wall_motion(fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3>&, const Clock&, double,
-                          const std::string&);
+template Task wall_motion(fluid::NormalFluxWalls<2>&, const fluid::MovingWalls<2>*, const coupling::Interface*,
+                          const Clock&, double, const std::string&);
+template Task wall_motion(fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3>*, const coupling::Interface*,
+                          const Clock&, double, const std::string&);
 template Task wall_friction(fluid::Fluid<2>&, const fluid::NormalFluxWalls<2>&, const std::string&);
 template Task wall_friction(fluid::Fluid<3>&, const fluid::NormalFluxWalls<3>&, const std::string&);
 template Task wall_gamma(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);

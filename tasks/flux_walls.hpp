@@ -2,6 +2,7 @@
 // gradients and fluxes.
 #pragma once
 #include "physics/clock.hpp"
+#include "physics/coupling/interface.hpp"
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
@@ -9,10 +10,11 @@
 
 namespace aquagraph::tasks {
 
-// Moves walls with a prescribed motion to `fraction` of the present step (0 … 1).
+// Moves the walls to `fraction` of the present step (0 … 1): those with a prescribed motion exactly, wet panels
+// extrapolated from the last exchange. moving and interface: null where the scene has none.
 template <int D>
-Task wall_motion(fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>& moving, const Clock& clock,
-                 double fraction, const std::string& label);
+Task wall_motion(fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>* moving,
+                 const coupling::Interface* interface, const Clock& clock, double fraction, const std::string& label);
 template <int D>
 Task wall_gamma(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
 // After the gradients.

@@ -14,7 +14,7 @@ namespace aquagraph::tasks {
 
 namespace {
 
-// Walls: GhostWalls, or NormalFluxWalls, which have no interface with a solid.
+// Walls: GhostWalls or NormalFluxWalls.
 template <int D, class Walls>
 class NeighbourSearchTask {
   public:
@@ -44,33 +44,33 @@ class NeighbourSearchTask {
             std::span<fluid::Travel>(scratch_));
     }
 
-    // What walls will move in the coming step. Where prescribed motions will be is known.
-    double walls_travel() const {
-        double travel = interface_travel();
-        if (walls_ && moving_)
-            for (const double fraction : {0.0, 0.5, 1.0})
-                travel = std::max(
-                    travel, moving_->largest_distance(walls_->panels.position, clock_.time + fraction * clock_.step));
-        return travel;
+    // How far walls will be from these places during the coming step. Where they will be is known: motions are
+    // prescribed or extrapolated from the last exchange.
+    double walls_distance(const std::vector<fluid::Vec<D>>& from) const {
+        double largest = 0;
+        for (const double fraction : {0.0, 0.5, 1.0}) {
+            if (moving_)
+                largest = std::max(largest, moving_->largest_distance(from, clock_.time + fraction * clock_.step));
+            if constexpr (D == 2)
+                if (interface_)
+                    largest = std::max(
+                        largest, interface_->surface.largest_distance(from, clock_.elapsed + fraction * clock_.step));
+        }
+        return largest;
     }
-    double interface_travel() const { return interface_ ? clock_.step * interface_->surface.largest_speed() : 0; }
+    double walls_travel() const { return walls_ ? walls_distance(walls_->panels.position) : 0; }
 
     // Two particles, or a particle and the mirror image of another, come closer by at most twice the largest
     // displacement of particles plus twice that of walls. The coming step is counted in.
     bool lists_hold(const fluid::Travel& travel) const {
         const std::vector<fluid::Vec<D>>& built = fluid_.record.walls;
         if (!fluid_.record.made) return false;
-        double moved = travel.so_far() + travel.of_step(clock_.step) + interface_travel();
+        double moved = travel.so_far() + travel.of_step(clock_.step);
         if (walls_) {
             double wall2 = 0;
             for (std::size_t k = 0; k < built.size(); ++k)
                 wall2 = std::max(wall2, (walls_->panels.position[k] - built[k]).squaredNorm());
-            double wall = std::sqrt(wall2);
-            // Where prescribed motions will be during the step is known.
-            if (moving_)
-                for (const double fraction : {0.0, 0.5, 1.0})
-                    wall = std::max(wall, moving_->largest_distance(built, clock_.time + fraction * clock_.step));
-            moved += wall;
+            moved += std::max(std::sqrt(wall2), walls_distance(built));
         }
         return moved < 0.5 * fluid_.lists.skin;
     }
@@ -88,7 +88,7 @@ class NeighbourSearchTask {
             rebuild_lists(fluid_, *walls_, parallel_loop);
         fluid_.record.made = true;
         if (walls_) fluid_.record.walls = walls_->panels.position;
-        if constexpr (D == 2 && ghosts)
+        if constexpr (D == 2)
             if (interface_) interface_->rebuild(fluid_, *walls_);
     }
 
@@ -130,14 +130,14 @@ Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const
 
 template <int D>
 Task neighbour_search(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>* moving,
-                      const Clock& clock, const std::string& label) {
-    return search_task(fluid, &walls, moving, nullptr, clock, label);
+                      coupling::Interface* interface, const Clock& clock, const std::string& label) {
+    return search_task(fluid, &walls, moving, interface, clock, label);
 }
 
-template Task neighbour_search(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const fluid::MovingWalls<2>*, const Clock&,
-                               const std::string&);
-template Task neighbour_search(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3>*, const Clock&,
-                               const std::string&);
+template Task neighbour_search(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const fluid::MovingWalls<2>*,
+                               coupling::Interface*, const Clock&, const std::string&);
+template Task neighbour_search(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3>*,
+                               coupling::Interface*, const Clock&, const std::string&);
 template Task neighbour_search(fluid::Fluid<2>&, fluid::GhostWalls<2>*, const fluid::MovingWalls<2>*,
                                coupling::Interface*, const Clock&, const std::string&);
 template Task neighbour_search(fluid::Fluid<3>&, fluid::GhostWalls<3>*, const fluid::MovingWalls<3>*,

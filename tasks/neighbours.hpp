@@ -21,6 +21,6 @@ Task neighbour_search(fluid::Fluid<D>& fluid, fluid::GhostWalls<D>* walls, const
 // The same with walls of the normal flux method: which particles see which parts of them is decided here as well.
 template <int D>
 Task neighbour_search(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>* moving,
-                      const Clock& clock, const std::string& label);
+                      coupling::Interface* interface, const Clock& clock, const std::string& label);
 
 }  // namespace aquagraph::tasks

@@ -34,33 +34,95 @@ Task interface_gradients(fluid::Fluid<2>& fluid, const coupling::Interface& inte
             }};
 }
 
+namespace {
+// To the solid's nodes, with the correction of the energy-conservative load (1 for the others), and their sum.
+void hand_to_nodes(coupling::Interface& interface) {
+    interface.surface.to_nodes(interface.vertex_forces, interface.fluid_loads);
+    const double factor = interface.correction.factor();
+    interface.force = {};
+    for (std::size_t k = 0; k < interface.fluid_loads.size(); ++k) {
+        interface.fluid_loads[k] *= factor;
+        interface.force[k % 2] += interface.fluid_loads[k];
+    }
+}
+}  // namespace
+
 Task interface_loads(fluid::Fluid<2>& fluid, const fluid::GhostWalls<2>& walls, coupling::Interface& interface) {
     return {.name = "interface loads",
             .reads = {resource::walls, resource::fluid_lists, resource::fluid_state, resource::fluid_ghosts,
-                      resource::fluid_gradients, resource::ghost_gradients},
+                      resource::fluid_gradients, resource::ghost_gradients, resource::interface_energy},
             .writes = {resource::interface_loads},
             .body = [&fluid, &walls, &interface] {
                 for_each_block(interface.load.blocks(),
                                [&](std::size_t block) { interface.load.compute(fluid, block); });
                 interface.load.spread(fluid.particles, walls, interface.vertex_forces);
-                interface.surface.to_nodes(interface.vertex_forces, interface.fluid_loads);
-                interface.force[0] = interface.force[1] = 0;
-                for (std::size_t k = 0; k < interface.fluid_loads.size(); ++k)
-                    interface.force[k % 2] += interface.fluid_loads[k];
+                hand_to_nodes(interface);
                 report_work(interface.load.pairs());
+            }};
+}
+
+Task interface_loads(fluid::Fluid<2>& fluid, const fluid::NormalFluxWalls<2>& walls, coupling::Interface& interface) {
+    return {.name = "interface loads",
+            .reads = {resource::walls, resource::wall_gamma, resource::fluid_lists, resource::fluid_state,
+                      resource::fluid_gradients, resource::fluid_rates},
+            .writes = {resource::interface_loads},
+            .body = [&fluid, &walls, &interface] {
+                interface.vertex_forces.assign(walls.panels.position.size(), fluid::Vec2::Zero());
+                walls.add_reactions(fluid.particles, fluid.kernel, fluid.flux, interface.vertex_forces);
+                hand_to_nodes(interface);
+            }};
+}
+
+Task averaged_loads(const fluid::Fluid<2>& fluid, const fluid::Panels<2>& panels, coupling::Interface& interface) {
+    return {.name = "interface loads",
+            .reads = {resource::walls, resource::fluid_lists, resource::fluid_state},
+            .writes = {resource::interface_loads},
+            .body = [&fluid, &panels, &interface] {
+                for_each_block(interface.average.blocks(), [&](std::size_t block) {
+                    interface.average.compute(fluid.particles, panels, fluid.kernel.radius(), 0.5 * fluid.spacing,
+                                              block);
+                });
+                interface.average.spread(panels, interface.vertex_forces);
+                hand_to_nodes(interface);
+                report_work(interface.average.candidates());
+            }};
+}
+
+Task interface_energy(const solid::Solver<2>& solid, coupling::Interface& interface, const double& work_on_fluid,
+                      LoadsOf loads) {
+    const bool parallel = loads == LoadsOf::last_exchange;
+    const std::vector<double>& nodal = parallel ? interface.solid_loads : interface.fluid_loads;
+    return {.name = "interface energy",
+            .reads = {resource::solid_state, resource::fluid_ledger,
+                      parallel ? resource::solid_loads : resource::interface_loads},
+            .writes = {resource::interface_energy},
+            .body = [&solid, &interface, &work_on_fluid, &nodal] {
+                coupling::InterfaceEnergy& energy = interface.energy;
+                const double gained = work_on_fluid - energy.to_fluid;
+                const double given = energy.book(nodal, solid.displacements());
+                energy.to_fluid = work_on_fluid;
+                if (interface.method == coupling::LoadMethod::energy_conservative)
+                    interface.correction.update(gained, given, energy.of_interface());
             }};
 }
 
 Task exchange(const solid::Solver<2>& solid, coupling::Interface& interface, Clock& clock) {
     return {.name = "exchange",
-            .reads = {resource::solid_state, resource::interface_loads},
+            .reads = {resource::solid_state, resource::interface_loads, resource::interface_energy},
             .writes = {resource::interface_motion, resource::solid_loads, resource::clock_step},
             .body = [&solid, &interface, &clock] {
-                interface.surface.take(solid.positions(), solid.velocities());
+                interface.surface.take(solid.positions(), solid.velocities(), clock.cycle);
                 std::copy(interface.fluid_loads.begin(), interface.fluid_loads.end(), interface.solid_loads.begin());
                 clock.elapsed = 0;
                 ++clock.cycles;
             }};
+}
+
+Task regulate_ratio(coupling::Interface& interface) {
+    return {.name = "ratio control",
+            .reads = {resource::interface_loads},
+            .writes = {resource::interface_ratio},
+            .body = [&interface] { interface.ratio.update(interface.force); }};
 }
 
 }  // namespace aquagraph::tasks

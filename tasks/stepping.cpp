@@ -1,6 +1,7 @@
 #include "tasks/stepping.hpp"
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "tasks/parallel_loop.hpp"
@@ -8,28 +9,56 @@
 
 namespace aquagraph::tasks {
 
+namespace {
+
 template <int D>
-Task time_step(fluid::Fluid<D>& fluid, Clock& clock, StepChoice choice, const std::string& label) {
+fluid::StepLimits largest_step(const fluid::Fluid<D>& fluid, std::vector<fluid::StepLimits>& scratch) {
+    scratch.resize(fluid.blocks());
+    return reduce_blocks(
+        fluid.blocks(), fluid::StepLimits{},
+        [&](std::size_t block) {
+            return step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
+                               fluid.viscosity_of_step());
+        },
+        fluid::combine, std::span<fluid::StepLimits>(scratch));
+}
+
+// `steps` of `wanted` each, or shorter ones to the end of the run.
+void set_step(Clock& clock, double wanted, const fluid::StepLimits& limits, int steps) {
+    const double left = (clock.end - clock.time) / steps;
+    clock.step = std::min(wanted, left);
+    clock.limiter = left < wanted ? "end of run" : limits.name();
+    if (left < wanted) return;  // cut short: says nothing about the rule
+    clock.use.taken += steps * clock.step;
+    clock.use.allowed += steps * limits.step();
+}
+
+}  // namespace
+
+template <int D>
+Task time_step(fluid::Fluid<D>& fluid, Clock& clock, bool first_of_cycle, const std::string& label) {
     auto scratch = std::make_shared<std::vector<fluid::StepLimits>>();
-    return {.name = label.empty() ? "time step" : "time step (" + label + ")",
+    return {.name = "time step (" + label + ")",
             .reads = {resource::fluid_lists, resource::fluid_state, resource::fluid_rates},
             .writes = {resource::clock},
-            .body = [&fluid, &clock, choice, scratch] {
-                scratch->resize(fluid.blocks());
-                const fluid::StepLimits limits = reduce_blocks(
-                    fluid.blocks(), fluid::StepLimits{},
-                    [&](std::size_t block) {
-                        return step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
-                                           fluid.viscosity_of_step());
-                    },
-                    fluid::combine, std::span<fluid::StepLimits>(*scratch));
-                const double wanted = choice.fraction * limits.step(), left = (clock.end - clock.time) / choice.steps;
-                clock.step = std::min(wanted, left);
-                clock.limiter = left < wanted ? "end of run" : limits.name();
-                if (choice.whole_cycle)
-                    clock.cycle = choice.steps * clock.step;
-                else
-                    clock.cycle = (choice.first_of_cycle ? 0 : clock.cycle) + clock.step;
+            .body = [&fluid, &clock, first_of_cycle, scratch] {
+                const fluid::StepLimits limits = largest_step(fluid, *scratch);
+                set_step(clock, limits.step(), limits, 1);
+                clock.cycle = (first_of_cycle ? 0 : clock.cycle) + clock.step;
+            }};
+}
+
+template <int D>
+Task cycle_step(fluid::Fluid<D>& fluid, Clock& clock, coupling::CycleStep& rule, int steps) {
+    auto scratch = std::make_shared<std::vector<fluid::StepLimits>>();
+    return {.name = "time step",
+            .reads = {resource::fluid_lists, resource::fluid_state, resource::fluid_rates},
+            .writes = {resource::clock},
+            .body = [&fluid, &clock, &rule, steps, scratch] {
+                const fluid::StepLimits limits = largest_step(fluid, *scratch);
+                set_step(clock, rule.next(limits.step(), steps), limits, steps);
+                if (rule.overstep > 0) ++clock.use.overlong;
+                clock.cycle = steps * clock.step;
             }};
 }
 
@@ -73,8 +102,10 @@ Task examine(fluid::Fluid<D>& fluid, const std::string& label) {
             }};
 }
 
-template Task time_step(fluid::Fluid<2>&, Clock&, StepChoice, const std::string&);
-template Task time_step(fluid::Fluid<3>&, Clock&, StepChoice, const std::string&);
+template Task time_step(fluid::Fluid<2>&, Clock&, bool, const std::string&);
+template Task time_step(fluid::Fluid<3>&, Clock&, bool, const std::string&);
+template Task cycle_step(fluid::Fluid<2>&, Clock&, coupling::CycleStep&, int);
+template Task cycle_step(fluid::Fluid<3>&, Clock&, coupling::CycleStep&, int);
 template Task examine(fluid::Fluid<2>&, const std::string&);
 template Task examine(fluid::Fluid<3>&, const std::string&);
 

@@ -3,22 +3,20 @@
 #include <memory>
 
 #include "physics/clock.hpp"
+#include "physics/coupling/cycle_step.hpp"
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/time_step.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
 
-// Chooses Δt = fraction × the largest stable step, cut so that `steps` of them end at the end of the run at the latest.
-// With `whole_cycle` the step holds for all steps of the cycle and clock.cycle is set; otherwise it is added to it.
-struct StepChoice {
-    double fraction = 1;
-    int steps = 1;
-    bool whole_cycle = false;
-    bool first_of_cycle = true;
-};
+// Chooses Δt, the largest stable step, cut so that it ends at the end of the run at the latest, and adds it to the
+// cycle's length, which begins anew where it is the first of the cycle.
 template <int D>
-Task time_step(fluid::Fluid<D>& fluid, Clock& clock, StepChoice choice, const std::string& label);
+Task time_step(fluid::Fluid<D>& fluid, Clock& clock, bool first_of_cycle, const std::string& label);
+// Chooses one Δt for all `steps` of a cycle by the cycle's rule, cut likewise.
+template <int D>
+Task cycle_step(fluid::Fluid<D>& fluid, Clock& clock, coupling::CycleStep& rule, int steps);
 
 // The fluid has made one step.
 Task advance_clock(Clock& clock, const std::string& label);

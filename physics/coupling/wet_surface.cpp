@@ -31,23 +31,100 @@ WetSurface::WetSurface(const solid::Mesh<2>& mesh, const std::vector<std::string
             panels.panels.push_back({{m, b}, wall_, false, true});
         }
     }
-    position_.assign(panels.position.begin() + std::ptrdiff_t(first_vertex_), panels.position.end());
-    velocity_.assign(nodes_.size(), Vec2::Zero());
+    motion.position.assign(panels.position.begin() + std::ptrdiff_t(first_vertex_), panels.position.end());
+    motion.velocity.assign(nodes_.size(), Vec2::Zero());
+    motion.acceleration = motion.velocity;
 }
 
-void WetSurface::take(std::span<const double> positions, std::span<const double> velocities) {
+void WetSurface::take(std::span<const double> positions, std::span<const double> velocities, double elapsed) {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
         const std::size_t n = 2 * std::size_t(nodes_[k]);
-        position_[k] = Vec2(positions[n], positions[n + 1]);
-        velocity_[k] = Vec2(velocities[n], velocities[n + 1]);
+        const Vec2 velocity(velocities[n], velocities[n + 1]);
+        motion.acceleration[k] =
+            motion.known && elapsed > 0 ? Vec2((velocity - motion.velocity[k]) / elapsed) : Vec2(Vec2::Zero());
+        motion.position[k] = Vec2(positions[n], positions[n + 1]);
+        motion.velocity[k] = velocity;
     }
+    motion.known = true;
+    motion.cycle = 0;
+}
+
+Vec2 WetSurface::position_at(std::size_t k, double ahead) const {
+    if (motion.cycle > 0) {
+        const double s = ahead / motion.cycle, t = 1 - s;
+        return t * t * ((1 + 2 * s) * motion.position[k] + ahead * motion.velocity[k]) +
+               s * s * ((1 + 2 * t) * motion.end_position[k] - t * motion.cycle * motion.end_velocity[k]);
+    }
+    switch (extrapolation) {
+        case Extrapolation::none:
+            return motion.position[k];
+        case Extrapolation::quadratic:
+            return motion.position[k] + ahead * (motion.velocity[k] + 0.5 * ahead * motion.acceleration[k]);
+        default:
+            return motion.position[k] + ahead * motion.velocity[k];
+    }
+}
+
+Vec2 WetSurface::velocity_at(std::size_t k, double ahead) const {
+    if (motion.cycle > 0) {
+        const double s = ahead / motion.cycle, t = 1 - s;
+        return 6 * s * t / motion.cycle * (motion.end_position[k] - motion.position[k]) +
+               t * (1 - 3 * s) * motion.velocity[k] + s * (1 - 3 * t) * motion.end_velocity[k];
+    }
+    if (extrapolation == Extrapolation::quadratic) return motion.velocity[k] + ahead * motion.acceleration[k];
+    return motion.velocity[k];
 }
 
 void WetSurface::place(fluid::Panels<2>& panels, double ahead) const {
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-        panels.position[first_vertex_ + k] = position_[k] + ahead * velocity_[k];
-        panels.velocity[first_vertex_ + k] = velocity_[k];
+        panels.position[first_vertex_ + k] = position_at(k, ahead);
+        panels.velocity[first_vertex_ + k] = velocity_at(k, ahead);
     }
+}
+
+namespace {
+void put(std::vector<double>& y, std::size_t k, const Vec2& position, const Vec2& way) {
+    y[4 * k] = position.x();
+    y[4 * k + 1] = position.y();
+    y[4 * k + 2] = way.x();
+    y[4 * k + 3] = way.y();
+}
+}  // namespace
+
+void WetSurface::state(std::vector<double>& y, double cycle) const {
+    y.resize(4 * nodes_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k) put(y, k, motion.position[k], cycle * motion.velocity[k]);
+}
+
+void WetSurface::extrapolated(std::vector<double>& y, double cycle) const {
+    y.resize(4 * nodes_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k) put(y, k, position_at(k, cycle), cycle * velocity_at(k, cycle));
+}
+
+void WetSurface::state_of(std::span<const double> positions, std::span<const double> velocities, std::vector<double>& y,
+                          double cycle) const {
+    y.resize(4 * nodes_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        const std::size_t n = 2 * std::size_t(nodes_[k]);
+        put(y, k, {positions[n], positions[n + 1]}, cycle * Vec2(velocities[n], velocities[n + 1]));
+    }
+}
+
+void WetSurface::head_for(std::span<const double> y, double cycle) {
+    motion.end_position.resize(nodes_.size());
+    motion.end_velocity.resize(nodes_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        motion.end_position[k] = Vec2(y[4 * k], y[4 * k + 1]);
+        motion.end_velocity[k] = Vec2(y[4 * k + 2], y[4 * k + 3]) / cycle;
+    }
+    motion.cycle = cycle;
+}
+
+double WetSurface::largest_distance(const std::vector<Vec2>& from, double ahead) const {
+    double largest2 = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+        largest2 = std::max(largest2, (position_at(k, ahead) - from[first_vertex_ + k]).squaredNorm());
+    return std::sqrt(largest2);
 }
 
 void WetSurface::to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) const {
@@ -57,12 +134,6 @@ void WetSurface::to_nodes(const std::vector<Vec2>& vertex_forces, std::span<doub
         nodal_forces[n] = vertex_forces[first_vertex_ + k].x();
         nodal_forces[n + 1] = vertex_forces[first_vertex_ + k].y();
     }
-}
-
-double WetSurface::largest_speed() const {
-    double largest = 0;
-    for (const Vec2& v : velocity_) largest = std::max(largest, v.squaredNorm());
-    return std::sqrt(largest);
 }
 
 }  // namespace aquagraph::coupling

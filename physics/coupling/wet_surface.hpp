@@ -1,11 +1,17 @@
 // The solid's wet surface as moving panels of the fluid's walls: one panel per half of a quadratic edge, so that every
-// panel runs straight from node to node. Positions and velocities of the wet nodes are taken at each exchange and
-// extrapolated in between (thesis (6.1)): x + l Δt v. They are never frozen.
+// panel runs straight from node to node. Positions and velocities of the wet nodes are taken at each exchange; in
+// between, τ later, they are
+//     linear     x + τ v, v            (thesis (6.1))
+//     quadratic  x + τ v + ½ τ² a, v + τ a, with a from the velocities of the last two exchanges
+//     none       x, v                  frozen, to show why they should not be
+// Where fluid and solid of a cycle are iterated, the end of the cycle is known as a guess, and wet nodes follow the
+// cubic that has the places and velocities of both its ends.
 #pragma once
 #include <span>
 #include <string>
 #include <vector>
 
+#include "physics/coupling/choices.hpp"
 #include "physics/fluid/walls/panels.hpp"
 #include "physics/solid/mesh.hpp"
 
@@ -13,34 +19,63 @@ namespace aquagraph::coupling {
 
 using fluid::Vec2;
 
+// What is known of the wet nodes since the last exchange.
+struct WetMotion {
+    std::vector<Vec2> position, velocity, acceleration;
+    bool known = false;                            // whether an exchange has been made
+    double cycle = 0;                              // > 0: the cubic that ends then [s] …
+    std::vector<Vec2> end_position, end_velocity;  // … there
+
+    template <class Archive>
+    void archive(Archive& fields) {  // for a checkpoint, between cycles
+        fields(position, velocity, acceleration, known);
+    }
+};
+
 class WetSurface {
   public:
+    Extrapolation extrapolation = Extrapolation::linear;
+    WetMotion motion;
+
     WetSurface() = default;
     // Adds the panels of these surfaces to `panels`, as one wall. Throws std::invalid_argument for an unknown surface.
     WetSurface(const solid::Mesh<2>& mesh, const std::vector<std::string>& surfaces, const std::string& name,
                fluid::Panels<2>& panels);
 
-    // Takes the solid's state, interleaved x and y per node.
-    void take(std::span<const double> positions, std::span<const double> velocities);
+    // Takes the solid's state, interleaved x and y per node, `elapsed` seconds after the last one (0: unknown, no
+    // acceleration is taken).
+    void take(std::span<const double> positions, std::span<const double> velocities, double elapsed = 0);
+    // The state at the end of a cycle as one vector, positions and velocities × its length [m] of each wet node: at the
+    // last exchange, as extrapolated, and as the solid has it.
+    void state(std::vector<double>& y, double cycle) const;
+    void extrapolated(std::vector<double>& y, double cycle) const;
+    void state_of(std::span<const double> positions, std::span<const double> velocities, std::vector<double>& y,
+                  double cycle) const;
+    // From now on nodes move towards this state.
+    void head_for(std::span<const double> y, double cycle);
+
     // Places the panels' vertices `ahead` seconds after the last exchange.
     void place(fluid::Panels<2>& panels, double ahead) const;
+    // How far vertices will then be from these places of all vertices of the panels [m].
+    double largest_distance(const std::vector<Vec2>& from, double ahead) const;
     // Adds the forces on vertices (one per vertex of `panels`) to nodal forces, interleaved; clears them first.
     void to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) const;
 
     template <class Archive>
     void archive(Archive& fields) {  // for a checkpoint: the last exchange
-        fields(position_, velocity_);
+        fields(motion);
     }
 
     int wall() const { return wall_; }
     std::size_t vertices() const { return nodes_.size(); }
-    double largest_speed() const;  // of wet nodes [m/s]
 
   private:
+    Vec2 position_at(std::size_t k, double ahead) const;
+    Vec2 velocity_at(std::size_t k, double ahead) const;
+
     std::vector<int> nodes_;        // node of each vertex
     std::size_t first_vertex_ = 0;  // in panels
     int wall_ = -1;
-    std::vector<Vec2> position_, velocity_;
 };
 
 }  // namespace aquagraph::coupling

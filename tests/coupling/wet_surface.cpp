@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
 
 using namespace aquagraph;
@@ -100,10 +101,96 @@ TEST_CASE("between exchanges wet nodes move with x + l Δt v, never frozen") {
             CHECK(scene.panels.velocity[k] == Vec2(Vec2::Zero()));
         }
     }
-    double fastest = 0;
+    // How far the nodes will be from where they stand, found from the places themselves.
+    scene.surface.place(scene.panels, 7e-3);
+    double furthest = 0;
     for (std::size_t k = 2; k < before.size(); ++k)
-        fastest = std::max(fastest, std::hypot(v[2 * node[k]], v[2 * node[k] + 1]));
-    CHECK(scene.surface.largest_speed() == doctest::Approx(fastest).epsilon(1e-15));
+        furthest = std::max(furthest, (scene.panels.position[k] - before[k]).norm());
+    CHECK(scene.surface.largest_distance(before, 7e-3) == doctest::Approx(furthest).epsilon(1e-15));
+}
+
+TEST_CASE("extrapolations are exact for the motion they assume, and none stands still") {
+    // x = x0 + v t + ½ a t², taken at t = 0 and at t = 0.1, looked at 0.05 later.
+    BesideWall scene;
+    const std::size_t n = scene.mesh.nodes.size();
+    const std::vector<double> x0 = random_values(2 * n, 1), v0 = random_values(2 * n, 2), a = random_values(2 * n, 3);
+    const auto at = [&](double t, double t_a) {
+        std::vector<double> x(2 * n), v(2 * n);
+        for (std::size_t k = 0; k < 2 * n; ++k) {
+            x[k] = x0[k] + v0[k] * t + 0.5 * a[k] * t_a * t;
+            v[k] = v0[k] + a[k] * t_a;
+        }
+        return std::pair{x, v};
+    };
+    struct Case {
+        coupling::Extrapolation extrapolation;
+        double position_error, velocity_error;  // per unit of a
+    };
+    const double cycle = 0.1, ahead = 0.05;
+    for (const Case& c : {Case{coupling::Extrapolation::linear, 0.5 * ahead * ahead, ahead},
+                          Case{coupling::Extrapolation::quadratic, 0, 0}}) {
+        scene.surface.extrapolation = c.extrapolation;
+        scene.surface.motion.known = false;
+        const auto [x_0, v_0] = at(0, 0);
+        const auto [x_1, v_1] = at(cycle, cycle);
+        scene.surface.take(x_0, v_0);
+        scene.surface.take(x_1, v_1, cycle);
+        scene.surface.place(scene.panels, ahead);
+        const auto [x, v] = at(cycle + ahead, cycle + ahead);
+        std::vector<double> taken(2 * n, 0.0);
+        for (std::size_t k = 2; k < scene.panels.position.size(); ++k)
+            for (std::size_t m = 0; m < n; ++m) {
+                const Vec2 now(x_1[2 * m], x_1[2 * m + 1]), acceleration(a[2 * m], a[2 * m + 1]);
+                scene.surface.place(scene.panels, 0);
+                if (scene.panels.position[k] != now) continue;
+                scene.surface.place(scene.panels, ahead);
+                const Vec2 position = scene.panels.position[k] - Vec2(x[2 * m], x[2 * m + 1]),
+                           velocity = scene.panels.velocity[k] - Vec2(v[2 * m], v[2 * m + 1]);
+                CHECK((position + c.position_error * acceleration).norm() < 1e-14);
+                CHECK((velocity + c.velocity_error * acceleration).norm() < 1e-14);
+                taken[m] = 1;
+            }
+        CHECK(std::count(taken.begin(), taken.end(), 1.0) == 20);
+    }
+    scene.surface.extrapolation = coupling::Extrapolation::none;
+    scene.surface.place(scene.panels, 0);
+    const std::vector<Vec2> still = scene.panels.position;
+    scene.surface.place(scene.panels, 1.0);
+    CHECK(scene.panels.position == still);
+}
+
+TEST_CASE("an iterated cycle moves from the last exchange to the guess, places and velocities at both ends") {
+    BesideWall scene;
+    const std::size_t n = scene.mesh.nodes.size();
+    const double cycle = 0.02;
+    const std::vector<double> x = random_values(2 * n, 1), v = random_values(2 * n, 2), x1 = random_values(2 * n, 3),
+                              v1 = random_values(2 * n, 4);
+    scene.surface.take(x, v);
+    scene.surface.place(scene.panels, 0);
+    const std::vector<Vec2> start = scene.panels.position, start_velocity = scene.panels.velocity;
+    std::vector<double> y, back;
+    scene.surface.state_of(x1, v1, y, cycle);
+    scene.surface.head_for(y, cycle);
+    scene.surface.place(scene.panels, 0);
+    CHECK(scene.panels.position == start);
+    for (std::size_t k = 2; k < start.size(); ++k) CHECK((scene.panels.velocity[k] - start_velocity[k]).norm() < 1e-12);
+    scene.surface.place(scene.panels, cycle);
+    scene.surface.extrapolated(back, cycle);
+    REQUIRE(back.size() == y.size());
+    for (std::size_t k = 0; k < y.size(); ++k) CHECK(back[k] == doctest::Approx(y[k]).epsilon(1e-12));
+    // In between the velocity is that of the places.
+    const double t = 0.3 * cycle, h = 1e-6 * cycle;
+    scene.surface.place(scene.panels, t + h);
+    const std::vector<Vec2> later = scene.panels.position;
+    scene.surface.place(scene.panels, t - h);
+    const std::vector<Vec2> earlier = scene.panels.position;
+    scene.surface.place(scene.panels, t);
+    for (std::size_t k = 2; k < start.size(); ++k)
+        CHECK(((later[k] - earlier[k]) / (2 * h) - scene.panels.velocity[k]).norm() <
+              1e-6 * (1 + scene.panels.velocity[k].norm()));
+    scene.surface.take(x1, v1, cycle);  // the cycle is over
+    scene.surface.place(scene.panels, 0.5 * cycle);
+    for (std::size_t k = 2; k < start.size(); ++k) CHECK((scene.panels.position[k] - later[k]).norm() > 0);
 }
 
 TEST_CASE("forces handed to nodes keep their sum and their moment") {

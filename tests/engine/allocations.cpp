@@ -51,7 +51,10 @@ TEST_CASE("a steady cycle allocates nothing") {
 
     for (const auto& [name, text] :
          {std::pair{"gate, CPS", with_coupling(gate, "cps", 1)},
-          std::pair{"gate, CSS, p = 3", with_coupling(gate, "css", 3)}, std::pair{"column", column}}) {
+          std::pair{"gate, CSS, p = 3", with_coupling(gate, "css", 3)},
+          std::pair{"gate, energy conservative", with(gate, "ratio = 1", "load = \"energy_conservative\"")},
+          std::pair{"gate, averaged pressure", with(gate, "ratio = 1", "load = \"averaged_pressure\"")},
+          std::pair{"column", column}}) {
         CAPTURE(name);
         const Steady steady = count_in_cycles(text, 60);
         INFO(steady.cycles, " steady cycles, ", steady.elsewhere, " allocations in the others");

@@ -240,6 +240,9 @@ TEST_CASE("what walls of normal fluxes do not go with is said, with what to do")
     CHECK(error_of(with(with(basin, "max = [1.5, 1.5]\n[fluid]", "max = [1.5, 1.5]\nperiodic = [\"x\"]\n[fluid]"),
                         "[[fluid.box]]", "[[fluid.box]]"))
               .find("no images in a periodic domain") != std::string::npos);
-    CHECK(error_of(with(gate, "sound_speed = 30.0", "sound_speed = 30.0\nwalls = \"normal_flux\""))
-              .find("do not load a solid") != std::string::npos);
+    const std::string coupled = with(gate, "sound_speed = 30.0", "sound_speed = 30.0\nwalls = \"normal_flux\"");
+    CHECK(error_of(coupled).empty());
+    CHECK(error_of(with(coupled, "ratio = 1", "load = \"energy_conservative\"")).find("does not know the work") !=
+          std::string::npos);
+    CHECK(error_of(with(coupled, "\"cps\"", "\"iterated\"")).find("go back to the start") != std::string::npos);
 }

@@ -59,6 +59,18 @@ TEST_CASE("the gate has the same bits on 1, 2 and 4 threads") {
         }
 }
 
+TEST_CASE("every load, regulation and iteration has the same bits on 1, 2 and 4 threads") {
+    const std::string every_cycle = with(gate, "history_interval = 0.001\n", "energy_ledger = true\n");
+    for (const char* keys :
+         {"algorithm = \"cps\"\nload = \"averaged_pressure\"\nratio_control = true\nratio = 4\n",
+          "algorithm = \"css\"\nload = \"energy_conservative\"\nextrapolation = \"quadratic\"\nratio = 3\n",
+          "algorithm = \"cps\"\nload = \"energy_conservative\"\nstep_rule = \"predicted\"\nratio = 2\n",
+          "algorithm = \"iterated\"\nratio = 2\n"}) {
+        CAPTURE(keys);
+        check_same_on_all_threads(with(every_cycle, "algorithm = \"cps\"\nratio = 1\n", keys));
+    }
+}
+
 TEST_CASE("the plate has the same bits on 1, 2 and 4 threads") {
     check_same_on_all_threads(plate);
     check_same_on_all_threads(plate + "[coupling]\nalgorithm = \"css\"\nratio = 3\n");

@@ -175,6 +175,19 @@ TEST_CASE("the gate goes on with the same bits, CPS and CSS") {
         }
 }
 
+TEST_CASE("every load and regulation goes on with the same bits") {
+    unsigned seed = 60;
+    const std::string ledger = with(every_cycle(gate), "[output]\n", "[output]\nenergy_ledger = true\n");
+    for (const char* keys :
+         {"algorithm = \"cps\"\nload = \"averaged_pressure\"\nratio_control = true\nratio = 4\n",
+          "algorithm = \"css\"\nload = \"energy_conservative\"\nextrapolation = \"quadratic\"\nratio = 3\n",
+          "algorithm = \"cps\"\nload = \"energy_conservative\"\nstep_rule = \"predicted\"\nratio = 2\n"}) {
+        CAPTURE(keys);
+        check_restarts<2>(with(ledger, "algorithm = \"cps\"\nratio = 1\n", keys), seed++);
+    }
+    check_restarts<2>(with(every_cycle(gate), "sound_speed", "walls = \"normal_flux\"\nsound_speed"), seed);
+}
+
 TEST_CASE("a body whose factorisation lasts goes on with the same bits") {
     // Stiff and started from equilibrium: one factorisation serves many steps, and is in use at the checkpoint.
     check_restarts<2>(with(plate, "end = 0.1", "end = 0.06"), 10, 3);

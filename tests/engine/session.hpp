@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "engine/checkpoints.hpp"
+#include "engine/cycle_graphs.hpp"
 #include "engine/listings.hpp"
 #include "engine/model_state.hpp"
-#include "tasks/task_graph.hpp"
 #include "tests/engine/results_of_run.hpp"
 
 namespace aquagraph::test {
@@ -20,7 +20,7 @@ class Session {
     std::unique_ptr<engine::Model<D>> model;
     engine::Results<D> results;
     engine::Checkpoints<D> checkpoints;
-    tasks::TaskGraph graph;
+    engine::CycleGraphs<D> graphs;
     long cycles = 0;
 
     Session(const std::filesystem::path& file, const std::filesystem::path& folder, int threads,
@@ -30,7 +30,7 @@ class Session {
           model(engine::make_model<D>(scene)),
           results(scene, *model, folder, from.has_value()),
           checkpoints(scene, *model, results, 0, from),
-          graph(listing(), executor) {
+          graphs(*model, scene, results, executor, nullptr) {
         if (from) {
             executor.execute([&] { checkpoints.restore(*from); });
             return;
@@ -45,7 +45,7 @@ class Session {
     }
 
     void run(long most = std::numeric_limits<long>::max()) {
-        for (long k = 0; k < most && model->clock.time < model->clock.end * (1 - 1e-12); ++k, ++cycles) graph.run();
+        for (long k = 0; k < most && model->clock.time < model->clock.end * (1 - 1e-12); ++k, ++cycles) graphs.run();
         results.sync();
     }
 
@@ -55,13 +55,6 @@ class Session {
         engine::archive(fields, *model);
         fields(results);
         return fields.take();
-    }
-
-  private:
-    std::vector<tasks::Task> listing() {
-        std::vector<tasks::Task> all = engine::coupling_cycle(*model, scene.coupling);
-        for (tasks::Task& task : engine::result_tasks(&results, results.diagnostics())) all.push_back(std::move(task));
-        return all;
     }
 };
 

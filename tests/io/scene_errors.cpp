@@ -214,7 +214,7 @@ TEST_CASE("impossible numbers") {
 
 TEST_CASE("choices") {
     expect("ratio = 2", "algorithm = \"cpss\"", 33, 13,
-           "`algorithm` must be one of \"cps\", \"css\", but it is \"cpss\"", "did you mean \"cps\"?");
+           "`algorithm` must be one of \"cps\", \"css\", \"iterated\", but it is \"cpss\"", "did you mean \"cps\"?");
     expect("max = [2.0, 2.0]", "max = [2.0, 2.0]\nedge = \"periodic\"", 8, 8,
            "`edge` must be one of \"closed\", \"open\"", "taken out and counted");
 }

@@ -1,0 +1,131 @@
+#include "engine/study_coupling_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace aquagraph::engine {
+
+namespace {
+
+std::string number(double value, const char* unit = "") {
+    return std::isfinite(value) ? fmt::format("{:.3g}{}", value, unit) : "–";
+}
+
+class CouplingTable {
+  public:
+    CouplingTable(const io::Study& study, std::size_t number, const std::vector<StudyResult>& results, int threads)
+        : study_(study), case_(study.cases[number]), threads_(threads) {
+        for (const StudyResult& result : results)
+            if (result.run.study_case == number) results_.push_back(&result);
+        const auto axis = std::find_if(study.axes.begin(), study.axes.end(),
+                                       [&](const io::StudyAxis& a) { return a.name == case_.speedup; });
+        axis_ = axis == study.axes.end() ? -1 : int(axis - study.axes.begin());
+    }
+
+    std::string text() const {
+        const bool speedup = axis_ >= 0;
+        std::string text = fmt::format(
+            "Difference: root mean square from `{}` of {} over its peak. Roughness: total variation of `{}` over that "
+            "of "
+            "{}; above {:g}, or where the run failed, the run counts as unstable{}.",
+            case_.curve, case_.reference, case_.curve, case_.reference, case_.roughness,
+            case_.growth > 0
+                ? fmt::format(", as it does where the curve's range in the last quarter of the time is more "
+                              "than {:g} times that in the second (growth)",
+                              case_.growth)
+                : "");
+        if (speedup)
+            text +=
+                " t_FE: a solve; t_SPH: a fluid step, its thread time over the threads. Speedup over the first value "
+                "of "
+                "the axis; theory: (6.7)-(6.9) of the thesis with the ratio t_FE/t_SPH of the row that is divided by.";
+        text += fmt::format("\n\n| variant | {} | steps |", case_.resolution_key);
+        if (speedup) text += " t_FE [ms] | t_SPH [ms] | speedup | theory |";
+        text += " wall [s] | difference | growth | roughness | |\n|---|---|---|";
+        if (speedup) text += "---|---|---|---|";
+        text += "---|---|---|---|---|\n";
+        for (const StudyResult* result : results_) text += row(*result, speedup);
+        return text;
+    }
+
+  private:
+    const RunRecord* good(const StudyResult& result) const {
+        for (const RunRecord& record : result.repeats)
+            if (record.failure.empty()) return &record;
+        return nullptr;
+    }
+    double median(const StudyResult& result, double (*value)(const RunRecord&)) const {
+        std::vector<double> values;
+        for (const RunRecord& record : result.repeats)
+            if (record.failure.empty()) values.push_back(value(record));
+        if (values.empty()) return NAN;
+        std::sort(values.begin(), values.end());
+        const std::size_t half = values.size() / 2;
+        return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+    }
+    double wall(const StudyResult& result) const {
+        return median(result, [](const RunRecord& r) { return r.wall_seconds; });
+    }
+    double solid_step(const StudyResult& result) const {
+        return median(result,
+                      [](const RunRecord& r) { return r.solves > 0 ? r.solve_seconds / double(r.solves) : NAN; });
+    }
+    double fluid_step(const StudyResult& result) const {
+        return median(result,
+                      [](const RunRecord& r) { return r.steps > 0 ? r.other_seconds / double(r.steps) : NAN; }) /
+               threads_;
+    }
+    const StudyResult* find(double resolution, const auto& wanted) const {
+        for (const StudyResult* result : results_)
+            if (result->run.resolution == resolution && wanted(study_.variants[result->run.variant])) return result;
+        return nullptr;
+    }
+
+    std::string row(const StudyResult& result, bool speedup) const {
+        const io::StudyVariant& variant = study_.variants[result.run.variant];
+        const RunRecord* record = good(result);
+        const StudyResult* reference =
+            find(result.run.resolution, [&](const io::StudyVariant& other) { return other.name == case_.reference; });
+        const RunRecord* right = reference ? good(*reference) : nullptr;
+        std::string text = fmt::format("| {} | {:g} |", variant.label, result.run.resolution);
+        text += record ? fmt::format(" {} |", record->steps) : " |";
+        if (speedup) {
+            const StudyResult* base = find(result.run.resolution, [&](const io::StudyVariant& other) {
+                std::vector<int> place = variant.place;
+                place[std::size_t(axis_)] = 0;
+                return other.place == place && other.base == variant.base;
+            });
+            const double ratio = base ? solid_step(*base) / fluid_step(*base) : NAN;
+            text += fmt::format(
+                " {} | {} | {} | {} |", number(1e3 * solid_step(result)), number(1e3 * fluid_step(result)),
+                number(base ? wall(*base) / wall(result) : NAN),
+                number(speedup_theory(result.run.parallel, result.run.ratio, ratio, result.run.step_fraction)));
+        }
+        const double away = record && right ? difference(record->curve, right->curve) : NAN;
+        const double rough = record && right ? total_variation(record->curve) / total_variation(right->curve) : NAN;
+        const double grown = record ? growth(record->curve) : NAN;
+        const bool grows = case_.growth > 0 && !(grown <= case_.growth);
+        const std::string verdict = !record                            ? "unstable: failed"
+                                    : !std::isfinite(rough)            ? "no reference"
+                                    : rough > case_.roughness || grows ? "unstable"
+                                                                       : "stable";
+        return text + fmt::format(" {} | {} | {} | {} | {} |\n", number(wall(result)), number(100 * away, " %"),
+                                  number(grown), number(rough), verdict);
+    }
+
+    const io::Study& study_;
+    const io::StudyCase& case_;
+    int threads_, axis_ = -1;
+    std::vector<const StudyResult*> results_;
+};
+
+}  // namespace
+
+std::string coupling_table(const io::Study& study, std::size_t study_case, const std::vector<StudyResult>& results,
+                           int threads) {
+    return CouplingTable(study, study_case, results, threads).text();
+}
+
+}  // namespace aquagraph::engine

@@ -1,0 +1,68 @@
+#include "tasks/iteration.hpp"
+
+#include "physics/fluid/rebuild.hpp"
+#include "tasks/parallel_loop.hpp"
+#include "tasks/resources.hpp"
+
+namespace aquagraph::tasks {
+
+Task begin_iterations(const IteratedParts& parts, CycleStart& start) {
+    return {.name = "start of iterations",
+            .reads = {resource::clock, resource::fluid, resource::solid_state, resource::interface_motion},
+            .writes = {resource::interface_guess},
+            .body = [parts, &start] {
+                start.fluid.take(parts.fluid, parts.clock);
+                start.works.resize(parts.works.size());
+                start.last_works.resize(parts.works.size());
+                for (std::size_t k = 0; k < parts.works.size(); ++k) {
+                    start.works[k] = parts.works[k].ledger.sum;
+                    start.last_works[k] = parts.works[k].ledger.last;
+                }
+                parts.solid.save(start.solid);
+                coupling::WetSurface& surface = parts.interface.surface;
+                surface.state(start.y, parts.clock.cycle);
+                surface.extrapolated(start.guess, parts.clock.cycle);
+                parts.interface.fixed_point.begin(start.y, start.guess);
+                surface.head_for(start.guess, parts.clock.cycle);
+            }};
+}
+
+Task back_to_start(const IteratedParts& parts, CycleStart& start) {
+    return {.name = "back to the start",
+            .reads = {resource::interface_guess},
+            .writes = {resource::clock, resource::fluid, resource::walls, resource::solid_state},
+            .body = [parts, &start] {
+                if (parts.interface.fixed_point.iterations() == 0) return;  // there already
+                const bool renewed = start.fluid.give_back(parts.fluid, parts.clock);
+                for (std::size_t k = 0; k < parts.works.size(); ++k) {
+                    parts.works[k].ledger.sum = start.works[k];
+                    parts.works[k].ledger.last = start.last_works[k];
+                }
+                parts.solid.restore(start.solid);
+                if (parts.moving) parts.moving->place(parts.walls.panels, parts.clock.time);
+                parts.interface.surface.place(parts.walls.panels, parts.clock.elapsed);
+                if (!renewed) return;
+                rebuild_lists(parts.fluid, &parts.walls, parallel_loop);
+                parts.interface.rebuild(parts.fluid, parts.walls);
+                parts.fluid.record.walls = parts.walls.panels.position;
+                start.fluid.take(parts.fluid, parts.clock);  // in the new order
+            }};
+}
+
+Task relaxation(const IteratedParts& parts, CycleStart& start) {
+    return {.name = "relaxation",
+            .reads = {resource::solid_state, resource::clock_cycle},
+            .writes = {resource::interface_guess, resource::interface_motion},
+            .body = [parts, &start] {
+                coupling::Interface& interface = parts.interface;
+                interface.surface.state_of(parts.solid.positions(), parts.solid.velocities(), start.y,
+                                           parts.clock.cycle);
+                interface.fixed_point.update(start.y);
+                if (interface.fixed_point.finished())
+                    interface.fixed_point.end();
+                else
+                    interface.surface.head_for(interface.fixed_point.guess(), parts.clock.cycle);
+            }};
+}
+
+}  // namespace aquagraph::tasks
