@@ -115,10 +115,6 @@ class Validation {
             if (is_idle && complaints_.positions.contains(full) && !complaints_.touch(full))
                 complaints_.add(full, why, help);
         };
-        for (const char* key : {"step_rule", "step_fraction"})
-            idle(key, coupling.algorithm == CouplingAlgorithm::css,
-                 "CSS chooses every step anew, at the CFL step: nothing is fixed beforehand",
-                 "take it out, or choose algorithm = \"cps\"");
         for (const char* key : {"relaxation", "tolerance", "most_iterations"})
             idle(key, coupling.algorithm != CouplingAlgorithm::iterated, "only the iterated algorithm iterates",
                  "take it out, or choose algorithm = \"iterated\"");

@@ -65,8 +65,8 @@ TEST_CASE("an elastic wedge enters water: what each load makes of energy at the 
         const io::Scene scene =
             io::read_scene(std::filesystem::path(AQUAGRAPH_SOURCE_DIR) / "benchmarks/beam_impact/scene.toml", set);
         std::ostringstream out, err;
-        REQUIRE(engine::run(scene, {.folder = folder / "results", .threads = 2, .quiet = true}, out, err) ==
-                engine::success);
+        REQUIRE(engine::run(scene, {.folder = folder / "results", .trace = {}, .threads = 2, .quiet = true}, out,
+                            err) == engine::success);
         const io::History history = ResultsFolder{folder / "results"}.history();
         return std::fabs(history.column("interface_energy").back() /
                          history.column("interface_from_body_energy").back());
