@@ -116,6 +116,8 @@ void Assembly<D>::make_groups(const Mesh<D>& mesh, const Options<D>& options) {
     for (auto& [kind, members] : groups) {
         Part& part = parts_.emplace_back();
         part.elements = make_element_group(mesh, std::move(members), *kind.first, options);
+        if (options.stiffness_damping > 0)
+            part.viscous = make_viscous_group(mesh, *part.elements, *kind.first, options);
         part.first_force = forces;
         part.first_matrix = matrices;
         part.first_pack = packs_;
@@ -275,6 +277,15 @@ double Assembly<D>::internal_forces(std::span<const double> u, std::span<double>
 }
 
 template <int D>
+void Assembly<D>::viscous_forces(std::span<const double> u, std::span<const double> v, std::span<double> forces,
+                                 BlockLoop loop) {
+    for_packs(force_work_per_block, loop, [&](const Part& part, std::size_t first, std::size_t last) {
+        part.viscous->forces(u, v, first, last, std::span(element_forces_).subspan(part.first_force));
+    });
+    sum_at_nodes(forces, loop);
+}
+
+template <int D>
 void Assembly<D>::multiply_mass(std::span<const double> x, std::span<double> y, BlockLoop loop) const {
     in_blocks(nodes(), nodes_per_block, loop, [&](std::size_t first, std::size_t last) {
         for (std::size_t a = first; a < last; ++a) {
@@ -289,9 +300,11 @@ void Assembly<D>::multiply_mass(std::span<const double> x, std::span<double> y, 
 
 template <int D>
 void Assembly<D>::system_matrix(std::span<const double> u, double stiffness_factor, double mass_factor,
-                                std::span<double> values, BlockLoop loop) {
+                                std::span<double> values, BlockLoop loop, double rate_factor) {
     for_packs(matrix_work_per_block, loop, [&](const Part& part, std::size_t first, std::size_t last) {
-        part.elements->tangents(u, first, last, std::span(element_matrices_).subspan(part.first_matrix));
+        const std::span<double> matrices = std::span(element_matrices_).subspan(part.first_matrix);
+        part.elements->tangents(u, first, last, matrices);
+        if (part.viscous && rate_factor != 0) part.viscous->add_tangents(u, rate_factor, first, last, matrices);
     });
     in_blocks(equations(), columns_per_block, loop, [&](std::size_t first, std::size_t last) {
         for (std::size_t c = first; c < last; ++c) {

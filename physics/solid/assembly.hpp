@@ -12,6 +12,7 @@
 #include "physics/solid/element_group.hpp"
 #include "physics/solid/mesh.hpp"
 #include "physics/solid/options.hpp"
+#include "physics/solid/viscous_elements.hpp"
 
 namespace aquagraph::solid {
 
@@ -38,6 +39,10 @@ class Assembly {
     // out.
     double internal_forces(std::span<const double> u, std::span<double> forces, BlockLoop loop);
 
+    // Of the damping of the stiffness, with velocities v; only where the options ask for it.
+    void viscous_forces(std::span<const double> u, std::span<const double> v, std::span<double> forces, BlockLoop loop);
+    bool is_viscous() const { return !parts_.empty() && parts_.front().viscous != nullptr; }
+
     // y = M x with the consistent mass, D × nodes, held ones included.
     void multiply_mass(std::span<const double> x, std::span<double> y, BlockLoop loop) const;
 
@@ -53,9 +58,10 @@ class Assembly {
     // written before system_matrix; zero at first.
     std::span<double> facet_matrices() { return std::span(element_matrices_).subspan(first_facet_matrix_); }
 
-    // values = stiffness_factor × K(u) + mass_factor × M in that pattern.
+    // values = stiffness_factor × K + mass_factor × M in that pattern, K(u) with ∂F_d/∂v × rate_factor of the damping
+    // of the stiffness: how velocities change with displacements.
     void system_matrix(std::span<const double> u, double stiffness_factor, double mass_factor, std::span<double> values,
-                       BlockLoop loop);
+                       BlockLoop loop, double rate_factor = 0);
     // y = K x with the K of the last system_matrix, D × nodes, held ones included.
     void multiply_stiffness(std::span<const double> x, std::span<double> y, BlockLoop loop);
     // The diagonal of K(u) in the last system_matrix, by equation [N/m].
@@ -67,6 +73,7 @@ class Assembly {
   private:
     struct Part {
         std::unique_ptr<ElementGroup<D>> elements;
+        std::unique_ptr<ViscousGroup<D>> viscous;                       // null without damping of the stiffness
         std::size_t first_force = 0, first_matrix = 0, first_pack = 0;  // of its packs, in the arrays of all groups
         std::vector<NodeIndex> connectivity;                            // [pack][node][lane]
     };

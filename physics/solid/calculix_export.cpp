@@ -61,6 +61,12 @@ class DeckWriter {
         if (options_.scheme == Scheme::newmark && options_.alpha != 0 && !run_.is_static)
             throw std::invalid_argument(
                 "CalculiX has no Newmark scheme without weighted forces: take hht, or alpha = 0");
+        if (options_.scheme == Scheme::central_difference && !run_.is_static)
+            throw std::invalid_argument("central differences are not exported: take hht");
+        if (!options_.motions.empty() || !options_.rigid_bodies.empty() || !options_.pressures.empty() ||
+            !options_.contacts.empty() || options_.mass_damping > 0 || options_.stiffness_damping > 0)
+            throw std::invalid_argument(
+                "prescribed motions, rigid bodies, pressures, contacts and damping are not exported to CalculiX");
         deck_.precision(13);  // ccx reads fields of twenty characters, a sign and an exponent among them
         deck_ << "*HEADING\n" << run_.title << "\n";
         nodes_and_elements();

@@ -27,7 +27,8 @@ struct CalculixRun {
 };
 
 // Node and element numbers count from 1. Throws std::invalid_argument for what ccx has no equal for: a measured curve,
-// cords, linear quadrilaterals, and Newmark's scheme with α ≠ 0.
+// cords, linear quadrilaterals, and Newmark's scheme with α ≠ 0; and for what is not exported: central differences,
+// prescribed motions, rigid bodies, pressures, contacts, damping.
 template <int D>
 void write_calculix(std::ostream& deck, const Mesh<D>& mesh, const Options<D>& options, const CalculixRun& run);
 

@@ -294,6 +294,25 @@ ContactReport<D> GroundContact<D>::report(std::span<const double> u) const {
     return report;
 }
 
+template <int D>
+void GroundContact<D>::add_nodal_pressure(std::span<const double> u, std::span<double> pressures,
+                                          std::span<double> weights) const {
+    for (std::size_t k = 0; k < facets_.count(); ++k) {
+        const auto x = facets_.positions(k, u);
+        std::size_t g = facets_.first_point(k);
+        for (const FacetPoint& point : facets_.rule(k)) {
+            const double pressure = old_states_[g].pressure, reference = areas_[g++];
+            const Vector normal = facets_.area_normal(point, x);
+            const double area = point.weight * std::sqrt(dot(normal, normal));
+            for (std::size_t a = 0; a < facets_[k].size(); ++a) {
+                const auto node = std::size_t(facets_[k][a]);
+                pressures[node] += point.N[a] * point.N[a] * pressure * reference;
+                weights[node] += point.N[a] * point.N[a] * area;
+            }
+        }
+    }
+}
+
 template class GroundContact<2>;
 template class GroundContact<3>;
 

@@ -60,6 +60,8 @@ class GroundContact {
     void reset_energies(double friction_dissipation, double ground_work);
 
     ContactReport<D> report(std::span<const double> u) const;  // of the last accepted state
+    // Adds Σ N_a² A p and Σ N_a² A of the Gauss points, A their areas now: a mean at the nodes of the surface.
+    void add_nodal_pressure(std::span<const double> u, std::span<double> pressures, std::span<double> weights) const;
 
   private:
     void add_tangent(std::size_t facet, const FacetPoint& point, double area, const double (&A)[D][D],

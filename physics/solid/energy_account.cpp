@@ -3,7 +3,7 @@
 // the scheme dissipates; for the schemes here it is
 //   Δu·(½ (r_n + r_n+1)) + terms of γ - 1/2 and β - γ/2 times Δa      (Hughes, The Finite Element Method, 9.1)
 // with r = F_ext - F_int - M a, zero but for the weights of HHT. The balance
-//   kinetic + strain + gravity potential + numerical - external work = constant
+//   kinetic + strain + gravity potential + damping + numerical - external work = constant
 // then holds as far as the trapezoidal work of F_int is the change of the strain energy: to third order in a step.
 #include <numeric>
 
@@ -54,6 +54,8 @@ void Solver<D>::Implementation::close_account(BlockLoop loop) {
         load_work += work;
         total_work += work;
     }
+    for (std::size_t f = 0; f < damping.size(); ++f)
+        account.damping += 0.5 * (damping[f] + previous_damping[f]) * (u[f] - old_u[f]);
     const auto step_of = [&](std::size_t k) {
         const std::size_t b = k / rigid_freedoms<D>, i = k % rigid_freedoms<D>;
         return bodies.motion(b).q[i] - old_bodies[b].q[i];

@@ -8,14 +8,43 @@
 namespace aquagraph::solid {
 
 template <int D>
-double Solver<D>::Implementation::evaluate_forces(BlockLoop loop) {
+double Solver<D>::Implementation::evaluate_forces(BlockLoop loop, Motion motion) {
     const std::vector<double>& gravity = assembly.gravity_forces();
     for (std::size_t f = 0; f < u.size(); ++f) external[f] = loads[f] + gravity[f];
     surface_loads.add_forces(time, u, external, loop);
     const double smallest_J = assembly.internal_forces(u, internal, loop);
-    for (GroundContact<D>& contact : contacts) contact.add_forces(-1, u, internal, loop);
+    add_contact_forces(loop);
+    if (is_damped() && motion == Motion::moving) add_damping(loop);
     gather_body_forces();
     return smallest_J;
+}
+
+// To the internal forces. Their size counts among the forces that residuals are compared with: a body between a clamp
+// and the ground, at rest, has no other at its free nodes.
+template <int D>
+void Solver<D>::Implementation::add_contact_forces(BlockLoop loop) {
+    contact_size2 = 0;
+    if (contacts.empty()) return;
+    std::fill(contact_forces.begin(), contact_forces.end(), 0.0);
+    for (GroundContact<D>& contact : contacts) contact.add_forces(1, u, contact_forces, loop);
+    for (std::size_t f = 0; f < u.size(); ++f) {
+        internal[f] -= contact_forces[f];
+        contact_size2 += contact_forces[f] * contact_forces[f];
+    }
+}
+
+// F_d = α M v + ∫ F S_d · ∇N dV; bodies' own masses are not damped.
+template <int D>
+void Solver<D>::Implementation::add_damping(BlockLoop loop) {
+    if (assembly.is_viscous())
+        assembly.viscous_forces(u, v, damping, loop);
+    else
+        std::fill(damping.begin(), damping.end(), 0.0);
+    if (options.mass_damping > 0) {
+        multiply_mass(v, momentum, loop);
+        for (std::size_t f = 0; f < u.size(); ++f) damping[f] += options.mass_damping * momentum[f];
+    }
+    for (std::size_t f = 0; f < u.size(); ++f) internal[f] += damping[f];
 }
 
 template <int D>
@@ -44,6 +73,7 @@ Magnitudes Solver<D>::Implementation::dynamic_residual(BlockLoop loop) {
         of.inertia += inertia[f] * inertia[f];
         of.step += (u[f] - old_u[f]) * (u[f] - old_u[f]);
     }
+    of.internal += contact_size2;
     for (const std::size_t f : motions.freedoms()) {
         of.internal += internal[f] * internal[f];
         of.inertia += inertia[f] * inertia[f];
@@ -82,6 +112,7 @@ Magnitudes Solver<D>::Implementation::static_residual() {
         of.external += external[f] * external[f];
         of.internal += internal[f] * internal[f];
     }
+    of.internal += contact_size2;
     for (const std::size_t f : motions.freedoms()) of.internal += internal[f] * internal[f];
     for (std::size_t k = 0; k < bodies.coordinates(); ++k) {
         body_external[k] = between(body_static_start[k], body_external[k]);

@@ -1,6 +1,7 @@
 // Central differences with lumped masses (thesis (3.47)-(3.49); Newmark with β = 0, γ = 1/2):
 //   u_n+1 = u_n + Δt (v_n + Δt/2 a_n),   M_L a_n+1 = F_ext_n+1 - F_int(u_n+1),   v_n+1 = v_n + Δt/2 (a_n + a_n+1)
-// stable for Δt <= 2/ω_max. Bodies add Tᵀ M_L T and their own masses, a small matrix.
+// stable for Δt <= 2/ω_max (√(1 + ψ²) - ψ), ψ the part of critical damping at ω_max. Damping takes the velocity of
+// mid-step. Bodies add Tᵀ M_L T and their own masses, a small matrix.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,7 +40,7 @@ NewtonResult Solver<D>::Implementation::step_explicitly(double dt, BlockLoop loo
     using Outcome = NewtonResult::Outcome;
     for (const std::size_t f : assembly.freedoms()) {
         u[f] = old_u[f] + dt * (old_v[f] + 0.5 * dt * old_a[f]);
-        v[f] = old_v[f] + dt * old_a[f];  // for damping only
+        v[f] = old_v[f] + 0.5 * dt * old_a[f];  // of mid-step, for damping
         a[f] = 0;
     }
     motions.place(time, u, v, a);
@@ -100,7 +101,9 @@ double Solver<D>::Implementation::largest_stable_step() {
         omega_squared = xKx / xMx;
         if (k > 20 && std::abs(omega_squared - before) < settled * settled * omega_squared) break;
     }
-    return stable_step = safety * 2 / std::sqrt(omega_squared);
+    const double omega = std::sqrt(omega_squared),
+                 psi = 0.5 * (options.mass_damping / omega + options.stiffness_damping * omega);
+    return stable_step = safety * 2 / omega * (std::sqrt(1 + psi * psi) - psi);
 }
 
 template struct Solver<2>::Implementation;

@@ -2,6 +2,7 @@
 // fluid imposes, an acceleration recovered from a difference of displacements would have lost its digits.
 //   residual     r(a) = w_1 (F_ext_n+1 - F_int(u)) + w_0 (F_ext_n - F_int_n) - M a
 //   correction   B δa = r,   B = M + w_1 β Δt² K
+// With damping, forces F_d(u, v) belong to F_int, v follows a by γ Δt, and B gets w_1 γ Δt ∂F_d/∂v.
 // B hardly depends on Δt and K while M leads, so its factorisation lasts for many steps (modified Newton). It is
 // renewed
 //  - when Δt has left 0.7 … 1.4 of the one it was made for (stiff modes converge with the rate |1 - (Δt/Δt_made)²|);
@@ -32,20 +33,29 @@ constexpr int steps_when_new = 4;          // the most iterations of so many ste
 
 template <int D>
 bool Solver<D>::Implementation::factorise_dynamic(double dt, BlockLoop loop) {
-    factor = {prepare_system(1, newmark.weight_new * newmark.beta * dt * dt, loop), dt, 0, 0, 0};
+    const double w = newmark.weight_new, mass_factor = 1 + w * newmark.gamma * dt * options.mass_damping;
+    factor = {prepare_system(mass_factor, w * newmark.beta * dt * dt, loop, newmark.gamma / (newmark.beta * dt)), dt, 0,
+              0, 0};
     return factor.valid;
 }
 
 template <int D>
-void Solver<D>::Implementation::correct_accelerations(double to_displacement) {
+void Solver<D>::Implementation::correct_accelerations(double to_displacement, double dt) {
     const std::size_t equations = assembly.equations();
     for (std::size_t e = 0; e < equations; ++e) {
         const std::size_t f = assembly.freedoms()[e];
         a[f] += correction[e];
         u[f] = predicted_u[f] + to_displacement * a[f];
     }
+    if (is_damped()) update_velocities(dt);
     bodies.correct(std::span<const double>(correction).subspan(equations));
     bodies.place(u, v, a);
+}
+
+template <int D>
+void Solver<D>::Implementation::update_velocities(double dt) {
+    for (const std::size_t f : assembly.freedoms())
+        v[f] = old_v[f] + dt * ((1 - newmark.gamma) * old_a[f] + newmark.gamma * a[f]);
 }
 
 template <int D>
@@ -55,6 +65,7 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
         a[f] = attempt == Attempt::from_rest ? (old_u[f] - predicted_u[f]) / to_displacement : old_a[f];
         u[f] = predicted_u[f] + to_displacement * a[f];
     }
+    if (is_damped()) update_velocities(dt);
     motions.place(time, u, v, a);
     bodies.begin_step(time, dt, newmark, attempt == Attempt::from_rest);
     bodies.place(u, v, a);
@@ -97,7 +108,7 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
         if (result.iterations == options.max_iterations) return result.outcome = Outcome::too_many_iterations, result;
 
         if (!solve_system(newton_tolerance, loop)) return result.outcome = Outcome::not_positive_definite, result;
-        correct_accelerations(to_displacement);
+        correct_accelerations(to_displacement, dt);
         previous_norm = norm;
         last_increment = to_displacement * this->norm(correction);
     }
@@ -123,8 +134,7 @@ NewtonResult Solver<D>::Implementation::step_implicitly(double dt, BlockLoop loo
         factor.iterations_when_new = std::max(factor.iterations_when_new, iterations);
     else
         factor.excess += std::max(0, iterations - factor.iterations_when_new);
-    for (const std::size_t f : assembly.freedoms())
-        v[f] = old_v[f] + dt * ((1 - newmark.gamma) * old_a[f] + newmark.gamma * a[f]);
+    update_velocities(dt);
     return result;
 }
 

@@ -84,9 +84,10 @@ void Solver<D>::Implementation::assemble_border(double mass_factor, double stiff
 }
 
 template <int D>
-bool Solver<D>::Implementation::prepare_system(double mass_factor, double stiffness_factor, BlockLoop loop) {
+bool Solver<D>::Implementation::prepare_system(double mass_factor, double stiffness_factor, BlockLoop loop,
+                                               double rate_factor) {
     add_surface_tangents(loop);
-    assembly.system_matrix(linearised.u, stiffness_factor, mass_factor, cholesky.values(), loop);
+    assembly.system_matrix(linearised.u, stiffness_factor, mass_factor, cholesky.values(), loop, rate_factor);
     ++statistics.matrices;
     assemble_border(mass_factor, stiffness_factor, loop);
     by_gradients = mass_factor != 0 && gradients_are_cheaper(stiffness_factor);

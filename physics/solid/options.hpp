@@ -129,6 +129,9 @@ struct Options {
     std::array<double, D> gravity{};  // [m/s²]
     Scheme scheme = Scheme::hht;
     double alpha = -0.3;  // αs in ]-1/3, 0]
+    // Rayleigh's damping (ψ = α/(2ω) + βω/2 of the critical value), ≥ 0: of the masses of the nodes [1/s], and of the
+    // stiffness at rest, carried along by rotations (viscous_elements.hpp) [s].
+    double mass_damping = 0, stiffness_damping = 0;
     std::vector<Clamp<D>> clamps;
     std::vector<Motion<D>> motions;
     std::vector<RigidBody<D>> rigid_bodies;

@@ -44,6 +44,8 @@ const Options<D>& checked(const Options<D>& options) {
     require(options.alpha > -1.0 / 3 && options.alpha <= 0,
             "alpha must lie in ]-1/3, 0], it is " + std::to_string(options.alpha));
     for (const double g : options.gravity) require(std::isfinite(g), "gravity must be finite");
+    for (const double rate : {options.mass_damping, options.stiffness_damping})
+        require(rate >= 0 && std::isfinite(rate), "damping must not be negative");
     require(positive(options.residual_tolerance) && positive(options.increment_tolerance),
             "the tolerances must be positive");
     require(options.max_iterations > 0, "max_iterations must be positive");
@@ -77,11 +79,14 @@ Solver<D>::Implementation::Implementation(Mesh<D> given_mesh, const Options<D>& 
     for (auto* field : {&body_external, &body_internal, &body_inertia, &body_previous_external, &body_previous_internal,
                         &body_loads, &body_previous_loads})
         field->assign(bodies.coordinates(), 0.0);
+    if (is_damped()) damping.assign(u.size(), 0.0);
+    previous_damping = damping;
     if (!bodies.empty()) column.assign(u.size(), 0.0);
     column_product = column;
     residual.assign(assembly.equations() + bodies.unknowns().size(), 0.0);
     correction = residual;
     for (const Contact<D>& contact : options.contacts) contacts.emplace_back(mesh, options, contact);
+    if (!contacts.empty()) contact_forces.assign(u.size(), 0.0);
     update_positions();
 }
 
@@ -181,6 +186,17 @@ ContactReport<D> Solver<D>::contact(std::size_t contact) const {
 }
 
 template <int D>
+void Solver<D>::contact_pressure(std::span<double> nodal) const {
+    require(nodal.size() == implementation_->mesh.nodes.size(), "one pressure per node is written");
+    std::vector<double> weights(nodal.size(), 0.0);
+    std::fill(nodal.begin(), nodal.end(), 0.0);
+    for (const GroundContact<D>& contact : implementation_->contacts)
+        contact.add_nodal_pressure(implementation_->u, nodal, weights);
+    for (std::size_t n = 0; n < nodal.size(); ++n)
+        if (weights[n] > 0) nodal[n] /= weights[n];
+}
+
+template <int D>
 double Solver<D>::time() const {
     return implementation_->time;
 }
@@ -240,6 +256,7 @@ Energies Solver<D>::energies() const {
     energies.strain = self.assembly.energy(self.u);
     energies.external_work = self.account.external_work;
     energies.numerical = self.account.numerical;
+    energies.damping = self.account.damping;
     for (const GroundContact<D>& contact : self.contacts) {
         energies.contact += contact.stored();
         energies.friction += contact.friction_dissipation();

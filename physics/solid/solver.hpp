@@ -41,9 +41,10 @@ struct Energies {                  // [J]
     // Since the start or the last solve_static, trapezoidal in time:
     double external_work = 0;  // of the loads without gravity, of what moves nodes as prescribed, of moving ground
     double friction = 0;       // dissipated
+    double damping = 0;        // dissipated by Rayleigh's damping
     double numerical = 0;      // dissipated by the scheme
-    // kinetic + strain + gravity_potential + contact + friction + numerical - external_work is constant, to the third
-    // order of a step.
+    double stored() const { return kinetic + strain + gravity_potential + contact; }
+    // stored() + friction + damping + numerical - external_work is constant, to the third order of a step.
 };
 
 struct Statistics {
@@ -66,9 +67,10 @@ struct State {
     double time = 0;                                               // [s]
     std::vector<double> displacements, velocities, accelerations;  // D × nodes
     std::vector<double> external_forces, internal_forces;          // at the end of the last step
+    std::vector<double> damping_forces;                            // empty without damping
     std::vector<double> rigid_bodies;  // of each: coordinates, velocities, accelerations, rotation matrix by rows
     bool accelerations_known = false;
-    double external_work = 0, numerical_dissipation = 0;
+    double external_work = 0, numerical_dissipation = 0, damping_dissipation = 0;
     std::vector<double> contacts;  // of each: shift, tractions, positions (ContactHistory), dissipation, ground's work
     Statistics statistics;
     // The factorisation in use (or the matrix, for conjugate gradients), by where it was made and how it has done
@@ -83,6 +85,7 @@ struct State {
     void archive(Archive& fields) {  // for a checkpoint
         fields(time, displacements, velocities, accelerations, external_forces, internal_forces, rigid_bodies, contacts,
                accelerations_known, external_work, numerical_dissipation, statistics);
+        fields(damping_forces, damping_dissipation);
         fields(factor_valid, by_gradients, factor_time_step, factor_steps, factor_iterations_when_new, factor_excess,
                factor_displacements, factor_rigid_bodies, factor_contacts, factor_time);
     }
@@ -148,6 +151,9 @@ class Solver {
     RigidBodyState<D> rigid_body(std::size_t body) const;  // in the order of the options
 
     ContactReport<D> contact(std::size_t contact) const;  // in the order of the options
+    // The pressure of all contacts at the nodes, a mean of the Gauss points around [Pa]; zero away from them. nodal:
+    // one per node.
+    void contact_pressure(std::span<double> nodal) const;
 
     Energies energies() const;  // computed when asked for
     Statistics statistics() const;

@@ -45,6 +45,7 @@ struct FactorPolicy {
 struct Account {
     double external_work = 0;  // loads without gravity, and whoever moves what is prescribed
     double numerical = 0;      // work of all forces that did not become kinetic energy
+    double damping = 0;        // work against Rayleigh's damping
     // At the start of the step under way:
     double kinetic = 0;
     std::vector<double> reactions;       // of the freedoms of prescribed motions
@@ -68,7 +69,12 @@ struct Solver<D>::Implementation {
     Implementation(Mesh<D> mesh, const Options<D>& options);
 
     // equation_of_motion.cpp
-    double evaluate_forces(BlockLoop loop);       // at u and `time`; returns the smallest det F
+    // At u and `time`, and at v where the body moves; returns the smallest det F.
+    enum class Motion { moving, at_rest };
+    double evaluate_forces(BlockLoop loop, Motion motion = Motion::moving);
+    bool is_damped() const { return options.mass_damping > 0 || options.stiffness_damping > 0; }
+    void add_contact_forces(BlockLoop loop);      // to the internal forces
+    void add_damping(BlockLoop loop);             // likewise
     void gather_body_forces();                    // from those of the nodes
     Magnitudes dynamic_residual(BlockLoop loop);  // of forces that are evaluated
     Magnitudes static_residual();
@@ -76,9 +82,10 @@ struct Solver<D>::Implementation {
     // linear_solve.cpp: the system B = m M + k K at `linearised`, bordered by the rigid bodies; by a factor of B or by
     // conjugate gradients, whichever is cheaper
     void linearise_here();
-    void keep_histories(std::vector<ContactHistory<D>>& histories) const;              // of the contacts
-    void linearise_at_start();                                                         // of the step
-    bool prepare_system(double mass_factor, double stiffness_factor, BlockLoop loop);  // false: not positive definite
+    void keep_histories(std::vector<ContactHistory<D>>& histories) const;  // of the contacts
+    void linearise_at_start();                                             // of the step
+    // K with the damping of the stiffness, times rate_factor. False: not positive definite.
+    bool prepare_system(double mass_factor, double stiffness_factor, BlockLoop loop, double rate_factor = 0);
     void add_surface_tangents(BlockLoop loop);
     void assemble_border(double mass_factor, double stiffness_factor, BlockLoop loop);
     bool gradients_are_cheaper(double stiffness_factor) const;
@@ -105,7 +112,8 @@ struct Solver<D>::Implementation {
     NewtonResult step_implicitly(double dt, BlockLoop loop);
     NewtonResult solve_step(double dt, Attempt attempt, BlockLoop loop);
     bool factorise_dynamic(double dt, BlockLoop loop);  // false: not positive definite
-    void correct_accelerations(double to_displacement);
+    void correct_accelerations(double to_displacement, double dt);
+    void update_velocities(double dt);  // from the accelerations
 
     // static_equilibrium.cpp
     void solve_static(std::span<const double> loads, BlockLoop loop);
@@ -145,8 +153,11 @@ struct Solver<D>::Implementation {
     std::vector<double> internal, inertia;            // F_int(u), M a
     std::vector<double> external, previous_external;  // loads and gravity, at the end and at the start of a step
     std::vector<double> previous_internal;
-    std::vector<double> old_u, old_v, old_a;  // at the start of the step
-    std::vector<double> predicted_u;          // the part of u_n+1 that does not depend on a_n+1
+    std::vector<double> contact_forces;             // the part of F_int at u that is the ground's; empty without
+    double contact_size2 = 0;                       // |that|² [N²]
+    std::vector<double> damping, previous_damping;  // the part of those that damps; empty without
+    std::vector<double> old_u, old_v, old_a;        // at the start of the step
+    std::vector<double> predicted_u;                // the part of u_n+1 that does not depend on a_n+1
     std::vector<double> static_start,
         static_start_u;                          // forces that hold, and displacements, where a static solve began
     std::vector<double> momentum;                // M v

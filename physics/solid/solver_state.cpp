@@ -71,6 +71,8 @@ void Solver<D>::save(State& state) const {
     state.accelerations_known = self.accelerations_known;
     state.external_work = self.account.external_work;
     state.numerical_dissipation = self.account.numerical;
+    state.damping_forces = self.damping;
+    state.damping_dissipation = self.account.damping;
     state.statistics = self.statistics;
     state.factor_valid = self.factor.valid;
     state.by_gradients = self.by_gradients;
@@ -96,6 +98,7 @@ void Solver<D>::restore(const State& state) {
                               &state.internal_forces})
         require(field->size() == self.u.size(), "the saved state has " + std::to_string(field->size()) +
                                                     " components, this mesh has " + std::to_string(self.u.size()));
+    require(state.damping_forces.size() == self.damping.size(), "the saved state has another damping");
     auto motions = self.bodies.motions();
     read<D>(state.rigid_bodies, motions);
     std::vector<ContactHistory<D>> histories;
@@ -122,6 +125,8 @@ void Solver<D>::restore(const State& state) {
     self.accelerations_known = state.accelerations_known;
     self.account.external_work = state.external_work;
     self.account.numerical = state.numerical_dissipation;
+    self.damping = state.damping_forces;
+    self.account.damping = state.damping_dissipation;
     self.restore_factor(state);
     self.statistics = state.statistics;
     self.update_positions();

@@ -26,7 +26,7 @@ NewtonResult Solver<D>::Implementation::solve_increment(double part, bool predic
     double relative_correction = 1;
     if (!move_held(predict, loop)) return result.outcome = Outcome::not_positive_definite, result;
     for (;; ++result.iterations) {
-        const double smallest_J = evaluate_forces(loop);
+        const double smallest_J = evaluate_forces(loop, Motion::at_rest);
         const Magnitudes of = static_residual();
         result.last_residual = std::sqrt(of.residual);
         result.reference = of.reference();
@@ -73,7 +73,7 @@ bool Solver<D>::Implementation::move_held(bool predict, BlockLoop loop) {
     if (motions.freedoms().empty() && bodies.prescribed().empty()) return true;
     if (predict) {
         linearise_here();
-        evaluate_forces(loop);
+        evaluate_forces(loop, Motion::at_rest);
         static_residual();
         if (!prepare_system(0, 1, loop)) return false;
     }
@@ -100,7 +100,7 @@ void Solver<D>::Implementation::solve_static(std::span<const double> given_loads
     factor = {};
     keep_histories(static_start_contacts);
     for (GroundContact<D>& contact : contacts) contact.place_ground(contact.history().shift, time, 0);
-    evaluate_forces(loop);
+    evaluate_forces(loop, Motion::at_rest);
     static_start = internal;
     body_static_start = body_internal;
 

@@ -46,6 +46,7 @@ void Solver<D>::Implementation::find_initial_accelerations(BlockLoop loop) {
     evaluate_forces(loop);
     previous_external = external;
     previous_internal = internal;
+    previous_damping = damping;
     body_previous_external = body_external;
     body_previous_internal = body_internal;
     body_previous_loads = body_loads;
@@ -69,6 +70,7 @@ template <int D>
 void Solver<D>::Implementation::keep_forces() {
     std::swap(previous_external, external);
     std::swap(previous_internal, internal);
+    std::swap(previous_damping, damping);
     std::swap(body_previous_external, body_external);
     std::swap(body_previous_internal, body_internal);
     std::swap(body_previous_loads, body_loads);

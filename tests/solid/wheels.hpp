@@ -52,9 +52,8 @@ template <int D, class Step>
 double imbalance(Solver<D>& solver, int steps, const Step& step) {
     const auto balance = [&] {
         const Energies e = solver.energies();
-        return std::pair{
-            e.kinetic + e.strain + e.gravity_potential + e.contact + e.friction + e.numerical - e.external_work,
-            std::max({e.kinetic, e.strain, std::abs(e.external_work)})};
+        return std::pair{e.stored() + e.friction + e.damping + e.numerical - e.external_work,
+                         std::max({e.kinetic, e.strain, std::abs(e.external_work)})};
     };
     const double initial = balance().first;
     double worst = 0, largest = 0;
