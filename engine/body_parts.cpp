@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "engine/solid_options.hpp"
 #include "io/comparison.hpp"
 #include "io/expression.hpp"
 #include "io/scene_formulas.hpp"
@@ -102,22 +103,8 @@ std::vector<solid::DeadLoad> make_loads(const io::Scene& scene, const solid::Mes
 
 template <int D>
 solid::Solver<D> make_solid(const io::Scene& scene) {
-    const io::SolidScene& from = *scene.solid;
-    solid::Options<D> options;
-    options.material = from.material;
-    for (const io::PartScene& part : from.parts) options.parts.push_back({part.set, part.material});
-    options.plane = from.plane;
-    options.integration = from.integration;
-    options.gravity = scene.gravity.as<D>();
-    options.scheme = from.scheme;
-    options.alpha = from.alpha;
-    for (const io::Clamp& clamp : from.clamps) {
-        solid::Clamp<D>& made = options.clamps.emplace_back();
-        made.set = clamp.set;
-        std::copy_n(clamp.fixed.begin(), D, made.fixed.begin());
-    }
     try {
-        return solid::Solver<D>(make_mesh<D>(scene), options);
+        return solid::Solver<D>(make_mesh<D>(scene), solid_options<D>(scene));
     } catch (const std::invalid_argument& error) {
         throw io::scene_error(scene, "solid", error.what(), "see [solid] in SCENES.md");
     }
@@ -133,12 +120,26 @@ void make_structure(const io::Scene& scene, Model<D>& model) {
     structure.forces.assign(D * model.solid->mesh().nodes.size(), 0.0);
 }
 
+// Of an explicit scheme: the scene's step, or the largest that is stable.
+template <int D>
+double explicit_step(const io::Scene& scene, const solid::Solver<D>& solid) {
+    const double largest = solid.largest_stable_step();
+    if (scene.solid->step > largest)
+        throw io::scene_error(scene, "solid.scheme.step",
+                              fmt::format("central differences are stable up to a step of {:.4g} s here", largest),
+                              "take `step` out: the largest stable step is the default");
+    return scene.solid->step > 0 ? scene.solid->step : largest;
+}
+
 template <int D>
 void static_start(const io::Scene& scene, Model<D>& model) {
-    if (!scene.solid->static_start) return;
-    std::vector<double> forces(D * model.solid->mesh().nodes.size(), 0.0);
-    if (model.structure) sum_at(model.structure->loads, 0, forces);
-    model.solid->solve_static(forces, tasks::parallel_loop);
+    if (scene.solid->static_start) {
+        std::vector<double> forces(D * model.solid->mesh().nodes.size(), 0.0);
+        if (model.structure) sum_at(model.structure->loads, 0, forces);
+        model.solid->solve_static(forces, tasks::parallel_loop);
+    }
+    if (model.structure && scene.solid->scheme == solid::Scheme::central_difference)
+        model.structure->step = explicit_step(scene, *model.solid);
 }
 
 template <int D>
@@ -146,7 +147,7 @@ std::vector<tasks::Task> structural_step(Model<D>& model) {
     Structure& structure = *model.structure;
     std::vector<tasks::Task> listing{tasks::structural_time_step(model.clock, structure.step),
                                      tasks::dead_loads(structure.loads, model.clock, structure.forces)};
-    listing.push_back(structure.is_static ? tasks::structural_equilibrium(*model.solid, structure.forces)
+    listing.push_back(structure.is_static ? tasks::structural_equilibrium(*model.solid, structure.forces, model.clock)
                                           : tasks::structural_step(*model.solid, structure.forces, model.clock));
     listing.push_back(tasks::advance_clock(model.clock, "step"));
     return listing;

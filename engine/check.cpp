@@ -83,14 +83,17 @@ void print_solid(std::ostream& out, const io::Scene& scene, const solid::Mesh<D>
     if (scene.solid->is_static)
         out << "static\n";
     else
-        out << fmt::format("{} with αs = {:g}\n", scene.solid->scheme == solid::Scheme::hht ? "HHT" : "Newmark",
-                           scene.solid->alpha);
+        out << (scene.solid->scheme == solid::Scheme::central_difference
+                    ? std::string("central differences\n")
+                    : fmt::format("{} with αs = {:g}\n", scene.solid->scheme == solid::Scheme::hht ? "HHT" : "Newmark",
+                                  scene.solid->alpha));
 }
 
 // Of a body alone: one step is made to see how long it takes.
 template <int D>
 void check_structure(const io::Scene& scene, Model<D>& model, tasks::Executor& executor, std::ostream& out) {
     print_solid(out, scene, model.solid->mesh());
+    if (scene.solid->scheme == solid::Scheme::central_difference) executor.execute([&] { static_start(scene, model); });
     const double steps = std::ceil(scene.end_time / model.structure->step * (1 - 1e-9));
     out << fmt::format("loads      {} besides gravity\ntime       {:g} s in {:.0f} steps of {:.3g} s\n",
                        model.structure->loads.size(), scene.end_time, steps, scene.end_time / steps);

@@ -88,8 +88,14 @@ void write_solid_frame(const std::filesystem::path& file, const solid::Solver<D>
     const Components<D> u = components<D>(solver.displacements()), v = components<D>(solver.velocities());
     std::vector<double> stress(solver.mesh().elements.size());
     solver.element_stress(stress);
-    write_on_nodes(file, solver, time, {vector_array<D>("displacement", u), vector_array<D>("velocity", v)},
-                   {{"von_mises_stress", {std::span<const double>(stress)}}});
+    std::vector<io::VtkArray> fields{vector_array<D>("displacement", u), vector_array<D>("velocity", v)};
+    std::vector<double> pressure;
+    if (!solver.options().contacts.empty()) {
+        pressure.resize(solver.mesh().nodes.size());
+        solver.contact_pressure(pressure);
+        fields.push_back({"contact_pressure", {std::span<const double>(pressure)}});
+    }
+    write_on_nodes(file, solver, time, std::move(fields), {{"von_mises_stress", {std::span<const double>(stress)}}});
 }
 
 template <int D>

@@ -4,33 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "engine/body_parts.hpp"
 #include "engine/field_columns.hpp"
+#include "engine/solid_history.hpp"
 
 namespace aquagraph::engine {
 
 namespace {
-
-// What a plane model has per metre of depth.
-template <int D>
-std::string per_depth(const std::string& unit) {
-    return D == 2 ? unit + "/m" : unit;
-}
-
-template <int D>
-HistoryPart tracks(const io::Scene& scene, const solid::Solver<D>& solid) {
-    HistoryPart part;
-    std::vector<std::size_t> nodes;
-    for (const io::Track& track : scene.solid->tracks) {
-        nodes.push_back(nearest_node(solid.mesh(), track.point));
-        for (std::size_t d = 0; d < D; ++d) part.columns.push_back({track.name + "_" + "xyz"[d], "m"});
-    }
-    part.append = [&solid, nodes](std::vector<double>& row) {
-        for (const std::size_t node : nodes)
-            for (std::size_t d = 0; d < D; ++d) row.push_back(solid.displacements()[D * node + d]);
-    };
-    return part;
-}
 
 HistoryPart interface_force(const io::Scene& scene, const coupling::Interface& interface) {
     return {{{scene.solid->name + "_force_x", "N/m"}, {scene.solid->name + "_force_y", "N/m"}},
@@ -84,27 +63,6 @@ HistoryPart energy_balance(const Model<D>& model) {
             initial};
 }
 
-// With the ledger also gravity's energy, and what the time integration has taken out: work of the loads minus what the
-// body has gained.
-template <int D>
-HistoryPart solid_energies(const solid::Solver<D>& solid, const coupling::Interface* interface) {
-    const std::string unit = per_depth<D>("J");
-    HistoryPart part{{{"solid_kinetic_energy", unit}, {"solid_strain_energy", unit}, {"solid_external_work", unit}},
-                     {}};
-    if (interface) {
-        part.columns.push_back({"solid_gravity_energy", unit});
-        part.columns.push_back({"solid_dissipated_energy", unit});
-    }
-    part.append = [&solid, interface](std::vector<double>& row) {
-        const solid::Energies e = solid.energies();
-        row.insert(row.end(), {e.kinetic, e.strain, e.external_work});
-        if (!interface) return;
-        const double gained = e.kinetic + e.strain + e.gravity_potential - interface->energy.solid_at_start;
-        row.insert(row.end(), {e.gravity_potential, e.external_work - gained});
-    };
-    return part;
-}
-
 // E_fluid/body, E_Interface; E_body/fluid is the body's column among the works of walls.
 HistoryPart interface_energies(const coupling::Interface& interface) {
     HistoryPart part{{{"interface_from_body_energy", "J/m"}, {"interface_energy", "J/m"}}, {}};
@@ -127,12 +85,11 @@ HistoryPart total_balance(const Model<2>& model) {
                 const fluid::FluidEnergies state = energies_of(model);
                 const solid::Energies body = model.solid->energies();
                 const double now = state.kinetic + state.potential + ledger.sum.compression + ledger.sum.displacement +
-                                   ledger.lost + body.kinetic + body.strain + body.gravity_potential;
+                                   ledger.lost + body.stored();
                 if (initial->empty()) initial->push_back(now);
                 const coupling::InterfaceEnergy& interface = model.interface->energy;
-                const double dissipated =
-                                 ledger.sum.dissipation + ledger.sum.viscous + body.external_work -
-                                 (body.kinetic + body.strain + body.gravity_potential - interface.solid_at_start),
+                const double dissipated = ledger.sum.dissipation + ledger.sum.viscous + body.external_work -
+                                          (body.stored() - interface.solid_at_start),
                              rigid = ledger.sum.walls - interface.to_fluid;
                 row.insert(row.end(), {now - initial->front(),
                                        now - initial->front() + dissipated - rigid - interface.of_interface()});
@@ -175,7 +132,8 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
     parts.push_back({{{"time", "s"}, {"step_size", "s"}}, [&clock = model.clock](std::vector<double>& row) {
                          row.insert(row.end(), {clock.time, clock.step});
                      }});
-    if (model.solid) parts.push_back(tracks(scene, *model.solid));
+    if (model.solid)
+        for (HistoryPart& part : solid_columns(scene, *model.solid)) parts.push_back(std::move(part));
     if (model.interface) parts.push_back(interface_force(scene, *model.interface));
     if (model.fluid) parts.push_back(fluid_energies(model));
     if (model.fluid && model.fluid->ledger.kept) parts.push_back(energy_balance(model));
@@ -184,8 +142,7 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
                          [&work](std::vector<double>& row) { row.push_back(work.ledger.sum.walls); }});
     const coupling::Interface* interface = model.interface ? &*model.interface : nullptr;
     if (interface && interface->keeps_energy) parts.push_back(interface_energies(*interface));
-    if (model.solid)
-        parts.push_back(solid_energies(*model.solid, interface && interface->keeps_energy ? interface : nullptr));
+    if (model.solid) parts.push_back(solid_energies(model, interface && interface->keeps_energy ? interface : nullptr));
     if constexpr (D == 2)
         if (interface && interface->keeps_energy && model.fluid->ledger.kept) parts.push_back(total_balance(model));
     if (interface && scene.coupling.algorithm == io::CouplingAlgorithm::iterated)

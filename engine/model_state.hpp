@@ -38,6 +38,10 @@ void archive(Archive& fields, Model<D>& model) {
         fields(state);
         if (fields.reads()) model.solid->restore(state);
     }
+    if (model.structure) {
+        fields.section("structure");
+        fields(model.structure->step);
+    }
     fields.section("end of the model");
 }
 

@@ -58,6 +58,7 @@ ExitCode modes_in(const io::Scene& scene, const ModesOptions& options, std::ostr
             static_start(scene, model);
             if (model.structure && model.structure->is_static) {
                 sum_at(model.structure->loads, scene.end_time, model.structure->forces);
+                model.solid->set_time(scene.end_time);
                 model.solid->solve_static(model.structure->forces, tasks::parallel_loop);
             }
             modes = model.solid->natural_modes(options.count, tasks::parallel_loop);

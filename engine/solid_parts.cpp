@@ -130,7 +130,7 @@ void start_solid(Model<2>& model, const io::Scene& scene) {
     if (interface.keeps_energy) {
         const solid::Energies energies = model.solid->energies();
         interface.energy.begin(model.solid->displacements());
-        interface.energy.solid_at_start = energies.kinetic + energies.strain + energies.gravity_potential;
+        interface.energy.solid_at_start = energies.stored();
     }
 }
 

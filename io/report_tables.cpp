@@ -80,6 +80,54 @@ std::string factor_text(const LoadHistory& factor) {
     return factor.formula.empty() ? "" : " × " + factor.formula;
 }
 
+// "0.2 m + 0.5 m/s t + …"
+std::string law_text(const TimeLawScene& law, const std::string& unit) {
+    std::vector<std::string> parts;
+    if (law.value != 0) parts.push_back(quantity(law.value, unit));
+    if (law.rate != 0) parts.push_back(quantity(law.rate, unit + "/s") + " t");
+    if (law.amplitude != 0)
+        parts.push_back(fmt::format("{} at {}", quantity(law.amplitude, unit), quantity(law.frequency, "Hz")));
+    if (!law.points.empty()) parts.push_back(fmt::format("a curve of {} points", law.points.size()));
+    if (!law.table.empty()) parts.push_back(law.table.filename().string());
+    std::string text = parts.empty() ? "0 " + unit : fmt::format("{}", fmt::join(parts, " + "));
+    return law.ramp > 0 ? text + fmt::format(", ramp {}", quantity(law.ramp, "s")) : text;
+}
+
+// What moves, presses and reinforces the body.
+void condition_rows(std::vector<Row>& rows, const SolidScene& solid, int dimension) {
+    if (solid.mass_damping > 0 || solid.stiffness_damping > 0)
+        rows.emplace_back("Rayleigh damping α, β", fmt::format("{}, {}", quantity(solid.mass_damping, "1/s"),
+                                                               quantity(solid.stiffness_damping, "s")));
+    for (const CordsScene& cords : solid.cords)
+        rows.emplace_back(
+            "cords" + (cords.set.empty() ? "" : " of " + cords.set),
+            fmt::format("{}, {} every {}, at {} rad", quantity(cords.modulus, "Pa"), quantity(cords.section, "m²"),
+                        quantity(cords.spacing, "m"), fmt::join(cords.angles, ", ")));
+    for (const NodeMotionScene& motion : solid.motions)
+        rows.emplace_back(
+            "prescribed motion",
+            fmt::format("{} along {}: {}", motion.set, word(direction_words, motion.along), law_text(motion.law, "m")));
+    for (const PressureScene& pressure : solid.pressures)
+        rows.emplace_back("pressure", fmt::format("{} on {}", law_text(pressure.law, "Pa"), pressure.surface));
+    for (const RigidBodyScene& body : solid.rigid_bodies)
+        rows.emplace_back("rigid body", fmt::format("{}: nodes of {}", body.name, body.set));
+    const auto freedom = [dimension](int k) {
+        return dimension == 2 ? word(plane_freedom_words, k) : word(freedom_words, k);
+    };
+    for (const RigidFreedomScene& entry : solid.rigid_motions)
+        rows.emplace_back("prescribed", fmt::format("{} {}: {}", entry.body, freedom(entry.freedom),
+                                                    law_text(entry.law, entry.freedom < dimension ? "m" : "rad")));
+    for (const RigidFreedomScene& entry : solid.rigid_loads)
+        rows.emplace_back("load", fmt::format("{} {}: {}", entry.body, freedom(entry.freedom),
+                                              law_text(entry.law, entry.freedom < dimension ? "N" : "N m")));
+    for (const ContactScene& contact : solid.contacts)
+        rows.emplace_back("contact", fmt::format("{}: {} with a {}, friction {:g}", contact.name, contact.surface,
+                                                 word(ground_words, contact.shape), contact.friction));
+    for (const GroundMotionScene& motion : solid.ground_motions)
+        rows.emplace_back("ground", fmt::format("{} moves along {}: {}", motion.contact,
+                                                word(direction_words, motion.along), law_text(motion.law, "m")));
+}
+
 std::string solid_table(const SolidScene& solid, int dimension) {
     std::vector<Row> rows{{"name", solid.name}};
     if (solid.box) {
@@ -97,6 +145,8 @@ std::string solid_table(const SolidScene& solid, int dimension) {
     for (const PartScene& part : solid.parts) material_rows(rows, part.material, " of " + part.set);
     if (solid.is_static)
         rows.emplace_back("time scheme", "static: an equilibrium at the end of every step");
+    else if (solid.scheme == solid::Scheme::central_difference)
+        rows.emplace_back("time scheme", "central differences, explicit");
     else
         rows.emplace_back(
             "time scheme",
@@ -116,6 +166,7 @@ std::string solid_table(const SolidScene& solid, int dimension) {
         rows.emplace_back("force", fmt::format("{} N {}{}", point(force.value),
                                                force.point ? "at " + point(*force.point) + " m" : "on " + force.set,
                                                factor_text(force.factor)));
+    condition_rows(rows, solid, dimension);
     if (!solid.wet.empty()) rows.emplace_back("wet", fmt::format("{}", fmt::join(solid.wet, ", ")));
     for (const Track& track : solid.tracks)
         rows.emplace_back("track", fmt::format("{} at {} m", track.name, point(track.point)));

@@ -1,5 +1,6 @@
 #include "io/scene_json.hpp"
 
+#include "io/scene_solid_json.hpp"
 #include "io/scene_surfaces.hpp"
 #include "io/scene_words.hpp"
 
@@ -146,65 +147,6 @@ Json to_json(const FluidScene& fluid, int dimension) {
     if (fluid.driving_force) json["driving_force"] = *fluid.driving_force;
     if (fluid.central_force)
         json["central_force"] = {{"centre", fluid.central_force->centre}, {"rate", fluid.central_force->rate}};
-    return json;
-}
-
-Json to_json(const MaterialScene& material) {
-    Json json = {{"law", word(material_law_words, material.law)}, {"density", material.density}};
-    if (material.law == solid::MaterialLaw::mooney_rivlin)
-        json.update({{"c10", material.c10}, {"c01", material.c01}, {"bulk_modulus", material.bulk_modulus}});
-    else if (material.law == solid::MaterialLaw::uniaxial_curve)
-        json.update({{"curve", material.curve_file.filename().string()}, {"poissons_ratio", material.poissons_ratio}});
-    else
-        json.update({{"youngs_modulus", material.youngs_modulus}, {"poissons_ratio", material.poissons_ratio}});
-    return json;
-}
-
-void put(Json& json, const LoadHistory& factor) {
-    if (!factor.formula.empty()) json["factor"] = factor.formula;
-    if (!factor.table.empty()) json["table"] = factor.table.filename().string();
-}
-
-Json to_json(const SolidScene& solid, int dimension) {
-    Json json = {{"name", solid.name}, {"static_start", solid.static_start}, {"wet", solid.wet}};
-    if (dimension == 2) json["plane"] = word(plane_words, solid.plane);
-    if (solid.box) {
-        json["box"] = to_json(*solid.box);
-        json["box"]["elements"] = std::vector(solid.elements.begin(), solid.elements.begin() + dimension);
-    } else {
-        json["mesh"] = solid.mesh.filename().string();
-    }
-    json["order"] = solid.element_order;
-    json["integration"] = word(integration_points_words, solid.integration);
-    json["material"] = to_json(solid.material);
-    for (const PartScene& part : solid.parts) {
-        json["part"].push_back(to_json(part.material));
-        json["part"].back()["set"] = part.set;
-    }
-    if (solid.is_static)
-        json["scheme"] = {{"name", "static"}};
-    else
-        json["scheme"] = {{"name", word(solid_scheme_words, solid.scheme)}, {"alpha", solid.alpha}};
-    if (solid.step > 0) json["scheme"]["step"] = solid.step;
-    for (const Clamp& clamp : solid.clamps) {
-        Json fixed = Json::array();
-        for (std::size_t d = 0; d < 3; ++d)
-            if (clamp.fixed[d]) fixed.push_back(std::string(1, "xyz"[d]));
-        json["clamp"].push_back({{"set", clamp.set}, {"fixed", fixed}});
-    }
-    for (const TractionScene& traction : solid.tractions) {
-        json["traction"].push_back({{"surface", traction.surface}, {"value", traction.value}});
-        put(json["traction"].back(), traction.factor);
-    }
-    for (const ForceScene& force : solid.forces) {
-        json["force"].push_back({{"value", force.value}});
-        if (force.point)
-            json["force"].back()["point"] = *force.point;
-        else
-            json["force"].back()["set"] = force.set;
-        put(json["force"].back(), force.factor);
-    }
-    for (const Track& track : solid.tracks) json["track"].push_back({{"name", track.name}, {"point", track.point}});
     return json;
 }
 

@@ -39,6 +39,8 @@ std::string kind_text(const SceneKey& key) {
             return "list of [x, y]";
         case K::interval:
             return "[from, to]";
+        case K::pairs:
+            return "list of pairs";
     }
     return {};
 }
@@ -120,6 +122,9 @@ std::string expectation(const SceneKey& key) {
             break;
         case K::interval:
             text = "two numbers [from, to]";
+            break;
+        case K::pairs:
+            text = "a list of pairs [[a, b], …]";
             break;
         default:
             text = kind_text(key);

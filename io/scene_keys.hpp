@@ -21,7 +21,8 @@ enum class KeyKind {
     interval,
     formula,
     formulas,
-    numbers
+    numbers,
+    pairs
 };
 
 // The values that a number may have; the text of benchmarks/SCENES.md is made from it too.

@@ -8,7 +8,7 @@
 
 namespace aquagraph::io {
 
-// Key of the scene -> file: mesh, measured curves, tables of loads.
+// Key of the scene -> file: mesh, measured curves, tables of loads and motions.
 std::map<std::string, std::filesystem::path> files_of(const SolidScene& solid);
 
 }  // namespace aquagraph::io

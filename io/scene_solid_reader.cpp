@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "io/comparison.hpp"
+#include "io/scene_time_law.hpp"
 #include "io/scene_words.hpp"
 
 namespace aquagraph::io {
@@ -35,6 +36,7 @@ class SolidReader {
         for (int i = 0; i < document_.count("solid.clamp"); ++i)
             clamp(solid_.clamps.emplace_back(), fmt::format("solid.clamp[{}].", i));
         loads();
+        conditions();
         for (int i = 0; i < document_.count("solid.track"); ++i) {
             Track& track = solid_.tracks.emplace_back();
             document_.take(fmt::format("solid.track[{}].name", i), track.name);
@@ -49,6 +51,21 @@ class SolidReader {
         if (!document_.take(key, word)) return;
         for (const auto& [name, value] : meanings)
             if (name == word) target = value;
+    }
+
+    // Calls read(a new entry, "SECTION[i]") for each there is.
+    template <class Entry, class Read>
+    void each(const std::string& section, std::vector<Entry>& entries, const Read& read) {
+        for (int i = 0; i < document_.count(section); ++i) {
+            const std::string at = fmt::format("{}[{}]", section, i);
+            read(entries.emplace_back(), at);
+            if constexpr (requires(Entry & entry) { entry.law; })
+                read_time_law(document_, at, scene_.file.parent_path(), entries.back().law);
+        }
+    }
+    template <class Value>
+    void take(const std::string& key, std::optional<Value>& target) {
+        if (Value value; document_.take(key, value)) target = value;
     }
 
     void path(const std::string& key, std::filesystem::path& target) const {
@@ -109,6 +126,7 @@ class SolidReader {
     void clamp(Clamp& clamp, const std::string& at) {
         const std::vector<std::string> directions =
             scene_.dimension == 2 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
+        document_.take(at + "name", clamp.name);
         document_.take(at + "set", clamp.set);
         std::vector<std::string> fixed = directions;
         document_.take(at + "fixed", fixed);
@@ -150,6 +168,64 @@ class SolidReader {
             document_.take(at + "value", force.value);
             factor(at, force.factor);
         }
+    }
+
+    void conditions() {
+        document_.take("solid.damping.mass", solid_.mass_damping);
+        document_.take("solid.damping.stiffness", solid_.stiffness_damping);
+        each("solid.cords", solid_.cords, [this](CordsScene& cords, const std::string& at) {
+            document_.take(at + ".set", cords.set);
+            document_.take(at + ".modulus", cords.modulus);
+            document_.take(at + ".section", cords.section);
+            document_.take(at + ".spacing", cords.spacing);
+            document_.take(at + ".thickness", cords.thickness);
+            document_.take(at + ".angles", cords.angles);
+            take(at + ".axis", cords.axis);
+            take(at + ".axis_point", cords.axis_point);
+            take(at + ".along", cords.along);
+            take(at + ".normal", cords.normal);
+        });
+        each("solid.motion", solid_.motions, [this](NodeMotionScene& motion, const std::string& at) {
+            document_.take(at + ".name", motion.name);
+            document_.take(at + ".set", motion.set);
+            choose(at + ".along", motion.along, direction_words);
+        });
+        each("solid.pressure", solid_.pressures, [this](PressureScene& pressure, const std::string& at) {
+            document_.take(at + ".surface", pressure.surface);
+        });
+        each("solid.rigid_body", solid_.rigid_bodies, [this](RigidBodyScene& body, const std::string& at) {
+            document_.take(at + ".name", body.name);
+            document_.take(at + ".set", body.set);
+            take(at + ".point", body.point);
+            document_.take(at + ".mass", body.mass);
+            document_.take(at + ".inertia", body.inertia);
+        });
+        const auto freedom = [this](RigidFreedomScene& entry, const std::string& at) {
+            document_.take(at + ".body", entry.body);
+            entry.freedom = -1;  // a word that is for the other dimension
+            if (scene_.dimension == 2)
+                choose(at + ".freedom", entry.freedom, plane_freedom_words);
+            else
+                choose(at + ".freedom", entry.freedom, freedom_words);
+        };
+        each("solid.rigid_motion", solid_.rigid_motions, freedom);
+        each("solid.rigid_load", solid_.rigid_loads, freedom);
+        each("solid.contact", solid_.contacts, [this](ContactScene& contact, const std::string& at) {
+            document_.take(at + ".name", contact.name);
+            document_.take(at + ".surface", contact.surface);
+            choose(at + ".shape", contact.shape, ground_words);
+            document_.take(at + ".point", contact.point);
+            take(at + ".normal", contact.direction);
+            take(at + ".axis", contact.direction);
+            document_.take(at + ".radius", contact.radius);
+            document_.take(at + ".hollow", contact.hollow);
+            document_.take(at + ".friction", contact.friction);
+            take(at + ".penalty", contact.penalty);
+        });
+        each("solid.ground_motion", solid_.ground_motions, [this](GroundMotionScene& motion, const std::string& at) {
+            document_.take(at + ".contact", motion.contact);
+            choose(at + ".along", motion.along, direction_words);
+        });
     }
 
     const CheckedDocument& document_;

@@ -7,8 +7,9 @@
 #include <set>
 
 #include "io/comparison.hpp"
+#include "io/scene_solid_conditions_validation.hpp"
+#include "io/scene_solid_sets.hpp"
 #include "io/scene_words.hpp"
-#include "io/suggestion.hpp"
 
 namespace aquagraph::io {
 namespace {
@@ -42,14 +43,16 @@ class SolidValidation {
         std::vector<std::string> clamped;
         for (std::size_t i = 0; i < solid_.clamps.size(); ++i) {
             clamped.push_back(solid_.clamps[i].set);
-            known_set(element("solid.clamp", i, "set"), solid_.clamps[i].set, "node set");
+            validate_set(scene_, element("solid.clamp", i, "set"), solid_.clamps[i].set, "node set", complaints_);
         }
         repeated(clamped, "solid.clamp", "set");
-        if (solid_.static_start && solid_.clamps.empty() && !complaints_.touch("solid.clamp"))
+        const bool is_held = !solid_.clamps.empty() || !solid_.motions.empty() || !solid_.rigid_motions.empty();
+        if (solid_.static_start && !is_held && !complaints_.touch("solid.clamp"))
             complaints_.add("solid.static_start", "a body without any [[solid.clamp]] has no equilibrium to start from",
                             "clamp it or take `static_start` out");
         time();
         loads();
+        validate_solid_conditions(scene_, complaints_);
     }
 
   private:
@@ -113,7 +116,7 @@ class SolidValidation {
 
     void wet() {
         for (std::size_t i = 0; i < solid_.wet.size(); ++i)
-            known_set(element("solid.wet", i), solid_.wet[i], "surface");
+            validate_set(scene_, element("solid.wet", i), solid_.wet[i], "surface", complaints_);
         repeated(solid_.wet, "solid.wet", "");
         if (!scene_.fluid && !solid_.wet.empty() && !complaints_.touch("fluid"))
             complaints_.add("solid.wet", "there is no water in this scene for the surfaces to touch",
@@ -129,7 +132,14 @@ class SolidValidation {
 
     void time() {
         if (complaints_.touch("solid.scheme")) return;
+        const bool is_explicit = solid_.scheme == solid::Scheme::central_difference;
+        if (is_explicit && given("solid.scheme.alpha"))
+            complaints_.add("solid.scheme.alpha", "central differences have no αs", "take it out");
         if (scene_.fluid) {
+            if (is_explicit)
+                complaints_.add("solid.scheme.name",
+                                "with water the step is the coupling cycle, which heeds no critical step of the body",
+                                "choose hht or newmark");
             if (solid_.is_static)
                 complaints_.add("solid.scheme.name", "a body in water moves: static is for a body alone",
                                 "choose hht or newmark");
@@ -140,9 +150,9 @@ class SolidValidation {
         }
         if (complaints_.touch("fluid")) return;
         if (solid_.is_static) {
-            for (const char* key : {"solid.scheme.alpha", "solid.static_start"})
+            for (const char* key : {"solid.scheme.alpha", "solid.static_start", "solid.damping"})
                 if (given(key)) complaints_.add(key, "this does nothing in a static run", "take it out");
-        } else if (!given("solid.scheme.step")) {
+        } else if (!given("solid.scheme.step") && !is_explicit) {
             complaints_.add("solid", "without water nothing says how long a time step is",
                             "give step in [solid.scheme], or name = \"static\" for an equilibrium");
         }
@@ -156,7 +166,7 @@ class SolidValidation {
                                     "take it out, or [fluid]");
         for (std::size_t i = 0; i < solid_.tractions.size(); ++i) {
             const std::string at = element("solid.traction", i);
-            known_set(at + ".surface", solid_.tractions[i].surface, "surface");
+            validate_set(scene_, at + ".surface", solid_.tractions[i].surface, "surface", complaints_);
             history(at, solid_.tractions[i].factor);
         }
         for (std::size_t i = 0; i < solid_.forces.size(); ++i) {
@@ -166,7 +176,7 @@ class SolidValidation {
                                 given(at + ".set") ? "there are both a `set` and a `point` for this force"
                                                    : "the force has no place: neither `set` nor `point`",
                                 "give one of them");
-            if (given(at + ".set")) known_set(at + ".set", solid_.forces[i].set, "node set");
+            if (given(at + ".set")) validate_set(scene_, at + ".set", solid_.forces[i].set, "node set", complaints_);
             history(at, solid_.forces[i].factor);
         }
     }
@@ -189,18 +199,6 @@ class SolidValidation {
         } catch (const std::exception& error) {
             complaints_.add(key, fmt::format("the file cannot be used: {}", error.what()), help);
         }
-    }
-
-    // The sets of a mesh are only known once it is read.
-    void known_set(const std::string& key, const std::string& set, std::string_view what) {
-        std::vector<std::string> sets{"left", "right", "bottom", "top"};
-        if (scene_.dimension == 3) sets.insert(sets.end(), {"front", "back"});
-        if (!solid_.box || complaints_.touch(key) || std::find(sets.begin(), sets.end(), set) != sets.end()) return;
-        const auto guess = nearest(set, sets);
-        complaints_.add(key, fmt::format("the box has no {} \"{}\"", what, set),
-                        guess                   ? fmt::format("did you mean \"{}\"?", *guess)
-                        : scene_.dimension == 2 ? "a box has left, right, bottom and top"
-                                                : "a box has left, right, front, back, bottom and top");
     }
 
     void repeated(const std::vector<std::string>& sets, std::string_view list, std::string_view key) {

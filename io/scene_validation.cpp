@@ -269,6 +269,21 @@ class Validation {
         if (scene_.solid->name != "solid") name("solid.name", scene_.solid->name, bodies);
         for (std::size_t i = 0; i < scene_.solid->tracks.size(); ++i)
             name(element("solid.track", i, "name"), scene_.solid->tracks[i].name, tracks);
+        // These have columns as tracks have and columns as walls have.
+        const auto both = [&](std::string_view list, const auto& entries) {
+            for (std::size_t i = 0; i < entries.size(); ++i) {
+                const std::string key = element(list, i, "name");
+                name(key, entries[i].name, tracks);
+                name(key, entries[i].name, bodies);
+            }
+        };
+        const auto forces = [&](std::string_view list, const auto& entries) {
+            for (std::size_t i = 0; i < entries.size(); ++i) name(element(list, i, "name"), entries[i].name, bodies);
+        };
+        forces("solid.clamp", scene_.solid->clamps);
+        forces("solid.motion", scene_.solid->motions);
+        both("solid.rigid_body", scene_.solid->rigid_bodies);
+        both("solid.contact", scene_.solid->contacts);
     }
 
     void probes() {

@@ -57,8 +57,18 @@ inline constexpr Words<solid::Integration, 2> integration_points_words{
     {{"reduced", solid::Integration::reduced}, {"full", solid::Integration::full}}};
 inline constexpr Words<solid::PlaneCondition, 2> plane_words{
     {{"strain", solid::PlaneCondition::strain}, {"stress", solid::PlaneCondition::stress}}};
-inline constexpr Words<solid::Scheme, 2> solid_scheme_words{
-    {{"hht", solid::Scheme::hht}, {"newmark", solid::Scheme::newmark}}};
+inline constexpr Words<solid::Scheme, 3> solid_scheme_words{
+    {{"hht", solid::Scheme::hht},
+     {"newmark", solid::Scheme::newmark},
+     {"central_difference", solid::Scheme::central_difference}}};
+inline constexpr Words<solid::GroundShape, 3> ground_words{{{"plane", solid::GroundShape::plane},
+                                                            {"cylinder", solid::GroundShape::cylinder},
+                                                            {"sphere", solid::GroundShape::sphere}}};
+inline constexpr Words<int, 3> direction_words{{{"x", 0}, {"y", 1}, {"z", 2}}};
+// Of a rigid body: in two dimensions, and in three.
+inline constexpr Words<int, 3> plane_freedom_words{{{"x", 0}, {"y", 1}, {"turn", 2}}};
+inline constexpr Words<int, 6> freedom_words{
+    {{"x", 0}, {"y", 1}, {"z", 2}, {"turn_x", 3}, {"turn_y", 4}, {"turn_z", 5}}};
 
 // The word for a meaning.
 template <class E, std::size_t n>

@@ -223,6 +223,9 @@ class Checker {
             case KeyKind::points:
                 points(key, path, node);
                 break;
+            case KeyKind::pairs:
+                pairs(key, path, node);
+                break;
         }
     }
 
@@ -346,6 +349,19 @@ class Checker {
             if (corner) corners.push_back(*corner);
         }
         if (good) keep(path, std::move(corners));
+    }
+
+    void pairs(const SceneKey& key, const std::string& path, const toml::node& node) {
+        const toml::array* all = list(key, path, node);
+        if (!all) return;
+        std::vector<std::array<double, 2>> values;
+        bool good = true;
+        for (std::size_t i = 0; i < all->size(); ++i) {
+            const auto both = pair(key, fmt::format("{}[{}]", path, i), (*all)[i]);
+            good = good && both;
+            if (both) values.push_back(*both);
+        }
+        if (good) keep(path, std::move(values));
     }
 
     void numbers(const SceneKey& key, const std::string& path, const toml::node& node) {

@@ -14,8 +14,9 @@
 
 namespace aquagraph::io {
 
-using DocumentValue = std::variant<double, int, bool, std::string, std::array<double, 2>, std::vector<int>, Point,
-                                   std::vector<std::string>, std::vector<Point>, std::vector<double>>;
+using DocumentValue =
+    std::variant<double, int, bool, std::string, std::array<double, 2>, std::vector<int>, Point,
+                 std::vector<std::string>, std::vector<Point>, std::vector<double>, std::vector<std::array<double, 2>>>;
 
 struct CheckedDocument {
     std::map<std::string, DocumentValue> values;  // "fluid.box[0].min"; only those without complaint

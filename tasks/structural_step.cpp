@@ -37,11 +37,12 @@ Task structural_step(solid::Solver<D>& solid, const std::vector<double>& forces,
 }
 
 template <int D>
-Task structural_equilibrium(solid::Solver<D>& solid, const std::vector<double>& forces) {
+Task structural_equilibrium(solid::Solver<D>& solid, const std::vector<double>& forces, const Clock& clock) {
     return {.name = "FE equilibrium",
-            .reads = {resource::clock, resource::solid_loads},  // the clock goes on once there is an equilibrium
+            .reads = {resource::clock, resource::solid_loads},
             .writes = {resource::solid_state},
-            .body = [&solid, &forces] {
+            .body = [&solid, &forces, &clock] {
+                solid.set_time(clock.time + clock.step);
                 solid.solve_static(forces, parallel_loop);
                 report_work(solid.mesh().elements.size());
             }};
@@ -49,7 +50,7 @@ Task structural_equilibrium(solid::Solver<D>& solid, const std::vector<double>& 
 
 template Task structural_step(solid::Solver<2>&, const std::vector<double>&, const Clock&);
 template Task structural_step(solid::Solver<3>&, const std::vector<double>&, const Clock&);
-template Task structural_equilibrium(solid::Solver<2>&, const std::vector<double>&);
-template Task structural_equilibrium(solid::Solver<3>&, const std::vector<double>&);
+template Task structural_equilibrium(solid::Solver<2>&, const std::vector<double>&, const Clock&);
+template Task structural_equilibrium(solid::Solver<3>&, const std::vector<double>&, const Clock&);
 
 }  // namespace aquagraph::tasks

@@ -16,8 +16,8 @@ Task dead_loads(const std::vector<solid::DeadLoad>& loads, const Clock& clock, s
 // One step of clock.step under these forces, D × nodes …
 template <int D>
 Task structural_step(solid::Solver<D>& solid, const std::vector<double>& forces, const Clock& clock);
-// … or the equilibrium under them.
+// … or the equilibrium under them, and under what is prescribed for the end of the step.
 template <int D>
-Task structural_equilibrium(solid::Solver<D>& solid, const std::vector<double>& forces);
+Task structural_equilibrium(solid::Solver<D>& solid, const std::vector<double>& forces, const Clock& clock);
 
 }  // namespace aquagraph::tasks
