@@ -9,8 +9,8 @@
 
 namespace aquagraph::tasks {
 
-Task structural_time_step(Clock& clock, double longest) {
-    return {.name = "time step", .reads = {}, .writes = {resource::clock}, .body = [&clock, longest] {
+Task structural_time_step(Clock& clock, const double& longest) {
+    return {.name = "time step", .reads = {}, .writes = {resource::clock}, .body = [&clock, &longest] {
                 const double left = clock.end - clock.time;
                 clock.step = left / std::max(1.0, std::ceil(left / longest * (1 - 1e-9)));
                 clock.cycle = clock.step;

@@ -7,8 +7,9 @@
 
 namespace aquagraph::tasks {
 
-// The next step: the rest of the run in equal parts, none longer than `longest` [s].
-Task structural_time_step(Clock& clock, double longest);
+// The next step: the rest of the run in equal parts, none longer than `longest` [s], which may still change: the task
+// keeps the reference.
+Task structural_time_step(Clock& clock, const double& longest);
 
 // forces = the loads at the end of the step.
 Task dead_loads(const std::vector<solid::DeadLoad>& loads, const Clock& clock, std::vector<double>& forces);
