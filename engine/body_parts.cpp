@@ -138,6 +138,7 @@ void static_start(const io::Scene& scene, Model<D>& model) {
         if (model.structure) sum_at(model.structure->loads, 0, forces);
         model.solid->solve_static(forces, tasks::parallel_loop);
     }
+    if (scene.solid->velocity) model.solid->set_velocity(scene.solid->velocity->as<D>());
     if (model.structure && scene.solid->scheme == solid::Scheme::central_difference)
         model.structure->step = explicit_step(scene, *model.solid);
 }

@@ -13,7 +13,7 @@ solid::Solver<D> make_solid(const io::Scene& scene);
 template <int D>
 void make_structure(const io::Scene& scene, Model<D>& model);
 
-// Equilibrium under its own weight and its loads at t = 0 where the scene asks for it.
+// Equilibrium under its own weight and its loads at t = 0, and a velocity, where the scene asks for them.
 template <int D>
 void static_start(const io::Scene& scene, Model<D>& model);
 

@@ -63,9 +63,12 @@ void remove_later_frames(const std::filesystem::path& folder, int number) {
     }
 }
 
-// The next multiple of `interval` after t; rounding must not give t itself again.
+// A moment this part of an interval before its multiple counts as it: sums of equal steps are rounded.
+constexpr double early = 1e-6;
+
+// From when on the next row or frame is due: just before the next multiple of `interval` after t.
 double next_due(double t, double interval) {
-    return (std::floor(t / interval * (1 + 1e-12)) + 1) * interval;
+    return (std::floor(t / interval + 2 * early) + 1 - early) * interval;
 }
 
 // Where the corners of the body's facets are now; of very many facets only some.

@@ -112,11 +112,17 @@ template <int D>
 HistoryPart solid_energies(const Model<D>& model, const coupling::Interface* interface) {
     const std::string unit = per_depth<D>("J");
     const solid::Solver<D>& solid = *model.solid;
-    HistoryPart part{{{"solid_kinetic_energy", unit}, {"solid_strain_energy", unit}, {"solid_external_work", unit}},
-                     {}};
+    const bool alone = model.structure.has_value(), moves = !alone || !model.structure->is_static;
+    HistoryPart part;
+    const auto column = [&](bool is_there, const char* name) {
+        if (is_there) part.columns.push_back({name, unit});
+    };
+    column(moves, "solid_kinetic_energy");
+    column(true, "solid_strain_energy");
+    column(moves, "solid_external_work");
     if (interface) {
-        part.columns.push_back({"solid_gravity_energy", unit});
-        part.columns.push_back({"solid_dissipated_energy", unit});
+        column(true, "solid_gravity_energy");
+        column(true, "solid_dissipated_energy");
         part.append = [&solid, interface](std::vector<double>& row) {
             const solid::Energies e = solid.energies();
             const double gained = e.stored() - interface->energy.solid_at_start;
@@ -129,26 +135,24 @@ HistoryPart solid_energies(const Model<D>& model, const coupling::Interface* int
     const bool touches = !options.contacts.empty(),
                rubs = std::any_of(options.contacts.begin(), options.contacts.end(),
                                   [](const auto&contact) { return contact.friction > 0; }),
-               damped = options.mass_damping > 0 || options.stiffness_damping > 0, alone = model.structure.has_value(),
-               moves = alone && !model.structure->is_static;
-    const auto column = [&](bool is_there, const char* name) {
-        if (is_there) part.columns.push_back({name, unit});
-    };
+               damped = moves && (options.mass_damping > 0 || options.stiffness_damping > 0), balances = alone && moves;
     column(alone, "solid_gravity_energy");
     column(touches, "solid_contact_energy");
     column(rubs, "solid_friction_energy");
-    column(damped && moves, "solid_damping_energy");
-    column(moves, "solid_numerical_energy");
-    column(moves, "solid_energy_residual");
+    column(damped, "solid_damping_energy");
+    column(balances, "solid_numerical_energy");
+    column(balances, "solid_energy_residual");
     part.memory = std::make_shared<std::vector<double>>();  // what is kept, in the first row
     part.append = [=, &solid, initial = part.memory](std::vector<double>& row) {
         const solid::Energies e = solid.energies();
-        row.insert(row.end(), {e.kinetic, e.strain, e.external_work});
+        if (moves) row.push_back(e.kinetic);
+        row.push_back(e.strain);
+        if (moves) row.push_back(e.external_work);
         if (alone) row.push_back(e.gravity_potential);
         if (touches) row.push_back(e.contact);
         if (rubs) row.push_back(e.friction);
-        if (damped && moves) row.push_back(e.damping);
-        if (!moves) return;
+        if (damped) row.push_back(e.damping);
+        if (!balances) return;
         const double kept = e.stored() + e.friction + e.damping + e.numerical - e.external_work;
         if (initial->empty()) initial->push_back(kept);
         row.insert(row.end(), {e.numerical, kept - initial->front()});

@@ -152,6 +152,7 @@ std::string solid_table(const SolidScene& solid, int dimension) {
             "time scheme",
             fmt::format("{}, αs = {:g}", solid.scheme == solid::Scheme::hht ? "HHT" : "Newmark", solid.alpha));
     if (solid.step > 0) rows.emplace_back("step", quantity(solid.step, "s"));
+    if (solid.velocity) rows.emplace_back("velocity at first", point(*solid.velocity) + " m/s");
     if (solid.static_start) rows.emplace_back("start", "equilibrium under its own weight and loads");
     for (const Clamp& clamp : solid.clamps) {
         std::string directions;

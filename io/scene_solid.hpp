@@ -124,6 +124,7 @@ struct SolidScene {
     double alpha = -0.3;        // αs in ]-1/3, 0]
     double step = 0;            // [s], of a body without water
     bool static_start = false;  // equilibrium under its own weight, and the loads at t = 0, before t = 0
+    std::optional<Point> velocity;  // at the start [m/s]
     std::vector<Clamp> clamps;
     std::vector<TractionScene> tractions;
     std::vector<ForceScene> forces;

@@ -100,6 +100,7 @@ void put_conditions(Json& json, const SolidScene& solid, int dimension) {
 
 nlohmann::json to_json(const SolidScene& solid, int dimension) {
     Json json = {{"name", solid.name}, {"static_start", solid.static_start}, {"wet", solid.wet}};
+    if (solid.velocity) json["velocity"] = *solid.velocity;
     if (dimension == 2) json["plane"] = word(plane_words, solid.plane);
     if (solid.box) {
         json["box"] = {{"min", solid.box->min}, {"max", solid.box->max}};

@@ -80,6 +80,7 @@ constexpr auto body_keys = std::to_array<SceneKey>({
      "what holds across the plane, in two dimensions"},
     {"solid", "static_start", K::boolean, false, "", any, "", "false",
      "start from the equilibrium under its own weight and its loads at t = 0, without the water"},
+    {"solid", "velocity", K::point, false, "m/s", any, "", "[0, 0]", "of the whole body at the start"},
     {"solid", "wet", K::texts, false, "", any, "", "none",
      "surface sets that touch the water; needed where the scene has water"},
 

@@ -24,6 +24,7 @@ class SolidReader {
         choose("solid.integration", solid_.integration, integration_points_words);
         document_.take("solid.order", solid_.element_order);
         document_.take("solid.static_start", solid_.static_start);
+        take("solid.velocity", solid_.velocity);
         document_.take("solid.wet", solid_.wet);
         material("solid.material", solid_.material);
         for (int i = 0; i < document_.count("solid.part"); ++i) {

@@ -150,7 +150,7 @@ class SolidValidation {
         }
         if (complaints_.touch("fluid")) return;
         if (solid_.is_static) {
-            for (const char* key : {"solid.scheme.alpha", "solid.static_start", "solid.damping"})
+            for (const char* key : {"solid.scheme.alpha", "solid.static_start", "solid.damping", "solid.velocity"})
                 if (given(key)) complaints_.add(key, "this does nothing in a static run", "take it out");
         } else if (!given("solid.scheme.step") && !is_explicit) {
             complaints_.add("solid", "without water nothing says how long a time step is",

@@ -197,6 +197,20 @@ void Solver<D>::contact_pressure(std::span<double> nodal) const {
 }
 
 template <int D>
+void Solver<D>::set_velocity(const std::array<double, D>& velocity) {
+    Implementation& self = *implementation_;
+    for (const double v : velocity) require(std::isfinite(v), "the velocity must be finite");
+    for (const std::size_t f : self.assembly.freedoms()) self.v[f] = velocity[f % D];
+    auto motions = self.bodies.motions();
+    for (std::size_t b = 0; b < motions.size(); ++b)
+        for (std::size_t i = 0; i < D; ++i)
+            if (!self.options.rigid_bodies[b].motion[i]) motions[b].velocity[i] = velocity[i];
+    self.bodies.set_motions(motions);
+    self.bodies.place(self.u, self.v, self.a);
+    self.accelerations_known = false;
+}
+
+template <int D>
 double Solver<D>::time() const {
     return implementation_->time;
 }

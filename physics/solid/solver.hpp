@@ -133,6 +133,9 @@ class Solver {
     // freedom, ConvergenceError if the search fails.
     std::vector<NaturalMode> natural_modes(int count, BlockLoop loop);
 
+    // Throws the whole body: every free node, and every rigid body that is free to move so, gets this velocity [m/s].
+    void set_velocity(const std::array<double, D>& velocity);
+
     // Time of the laws of motions and loads [s]; 0 at first, advance() adds its step. A static solve takes them as they
     // are at this time.
     double time() const;

@@ -272,3 +272,24 @@ point = [0.2, 0.0, 0.0]
     CHECK(stretched("0.0") == doctest::Approx(1e4 / (1e6 + 1e9 * 1e-6 / (1e-3 * 0.005))).epsilon(0.02));
     CHECK(stretched("1.5707963267948966") == doctest::Approx(1e4 / 1e6).epsilon(0.03));
 }
+
+TEST_CASE("a body that is thrown flies, and its rigid rim with it; where it is clamped it stays") {
+    const std::string thrown = block("alpha = 0.0\nstep = 1e-3\n", "[0.0, -10.0]", 0.1) + R"(
+[[solid.rigid_body]]
+name = "plate"
+set = "right"
+mass = 5.0
+[[solid.track]]
+name = "middle"
+point = [0.1, 0.05]
+)";
+    const RunOfText run(with(thrown, "[solid]\n", "[solid]\nvelocity = [2.0, 1.0]\n"));
+    CHECK(run.last("middle_x") == doctest::Approx(0.2).epsilon(1e-6));
+    CHECK(run.last("middle_y") == doctest::Approx(0.1 - 0.05).epsilon(1e-3));
+    CHECK(run.last("plate_x") == doctest::Approx(0.2).epsilon(1e-6));
+    CHECK(std::abs(run.last("plate_turn")) < 1e-6);
+    const RunOfText held(with(thrown, "[solid]\n", "[solid]\nvelocity = [0.0, 0.01]\n") +
+                         "[[solid.clamp]]\nset = \"left\"\n[[solid.track]]\nname = \"root\"\npoint = [0.0, 0.0]\n");
+    CHECK(held.last("root_y") == 0);
+    CHECK(held.largest("solid_kinetic_energy") > 0);
+}

@@ -308,3 +308,12 @@ TEST_CASE("sets and factors that are not there are refused with their place") {
     CHECK_THROWS_WITH_AS(Finished(with(bar_3d, "surface = \"right\"", "surface = \"frnt\"")),
                          doctest::Contains("did you mean \"front\"?"), io::SceneError);
 }
+
+TEST_CASE(
+    "equal steps and an interval of their length: a frame and a row for each, though sums of tenths are rounded") {
+    const Finished run(with(bar_2d, "name = \"static\"", "name = \"static\"\nstep = 0.1") +
+                       "[output]\nframe_interval = 0.1\nhistory_interval = 0.1\n");
+    REQUIRE(run.code == engine::success);
+    CHECK(run.results.frames("solid").size() == 11);
+    CHECK(run.results.history().rows() == 11);
+}
