@@ -109,12 +109,6 @@ double smallest_eigenvalue(const Mat<D>& m, Mat<D>& inverse) {
     return smallest;
 }
 
-// Between the fullness at which a support counts as open and that at which it counts as full, the corrections fade in.
-double fade(double fullness) {
-    const double s = std::clamp((fullness - 0.8) / 0.15, 0.0, 1.0);
-    return s * s * (3 - 2 * s);
-}
-
 constexpr double tolerated_in_shadow = 0.6;
 constexpr double tolerated_disorder = 0.15;  // of |Σ n W A|
 

@@ -101,9 +101,13 @@ class NormalFluxWalls {
 
     // Forces of the fluid on the vertices of all panels [N] ([N/m] in 2D), by linear shape functions at the points;
     // added to vertex_forces, one entry per vertex, serially and in a fixed order.
-    // Pressure: Σ_s p_s n_s A_s with p_s the mean of what the particles around find there, by their shares W_is ω_i;
-    // points that are hardly wet (Σ W_is ω_i < 0.1) in proportion. Where water sticks to the wall (viscosity µ > 0)
-    // also the friction µ (v_i - v_w)_tangential/h, averaged likewise. Accurate panel by panel.
+    // Pressure: Σ_s p n_s A_s with p the mean of ½ (p_L + p_s), what the particles around find there and feel, by their
+    // shares W_is ω_i; points that are hardly wet (Σ W_is ω_i < 0.1) in proportion. A mean does not say how much water
+    // there is: where a wall comes down on a free surface, the few particles within R find the pressure of the impact
+    // before it touches them. So particles count in the mean as far as their support is full; of the others counts
+    // what add_fluxes has last taken from their momentum (add_reactions), along the normals of the walls that they
+    // see. Where water sticks to the wall (viscosity µ > 0) also the friction µ (v_i - v_w)_tangential/h, as a mean.
+    // Accurate panel by panel.
     void add_pressure_forces(const Particles<D>& particles, const Kernel<D>& kernel, const FluxParameters& parameters,
                              double viscosity, std::vector<Vec<D>>& vertex_forces);
     // Reaction, after add_fluxes: all that a particle's rate holds beside gravity and the symmetric pair forces, which

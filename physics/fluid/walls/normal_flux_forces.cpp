@@ -1,9 +1,29 @@
 // What walls do to the fluid and the fluid to them, beside the fluxes of a substep.
+#include <Eigen/Dense>
 #include <cmath>
 
 #include "physics/fluid/walls/wall_flux.hpp"
 
 namespace aquagraph::fluid {
+
+namespace {
+
+// a with Σ_s W_is A_s (a·n_s) n_s = f, as far as the normals reach: across them walls bear nothing.
+template <int D>
+Vec<D> normal_part(const Mat<D>& normals, double weights, const Vec<D>& f) {
+    constexpr double least_share = 0.02;  // of a direction
+    Eigen::SelfAdjointEigenSolver<Mat<D>> directions;
+    directions.computeDirect(normals);
+    Vec<D> a = Vec<D>::Zero();
+    for (int d = 0; d < D; ++d) {
+        const double share = directions.eigenvalues()[d];
+        const Vec<D> e = directions.eigenvectors().col(d);
+        if (share > least_share * weights) a += e.dot(f) / share * e;
+    }
+    return a;
+}
+
+}  // namespace
 
 template <int D>
 Vec<D> NormalFluxWalls<D>::shear_rate(const Particles<D>& s, std::size_t i, std::size_t point, double spacing) const {
@@ -113,16 +133,35 @@ void NormalFluxWalls<D>::add_pressure_forces_with(const Particles<D>& s, const K
             WallFlux<D> own(s, i, parameters, pressure, s.volume[i] / s.mass[i]);
             const Range range = points_of(b, k);
             own.lower_impedance(fields, &b.point[range.begin], range.end - range.begin, kernel, gamma_[i]);
+            own.impedance *= 0.5;  // below, p_s is then ½ (p_L + p_s)
+            const double full = fade(s.fullness[i]);
+            Mat<D> normals = Mat<D>::Zero();  // Σ_s n_s ⊗ n_s W_is A_s
+            double weights = 0;
             for (std::size_t q = range.begin; q < range.end; ++q) {
                 const std::size_t point = b.point[q];
                 if (point == points.size()) continue;
                 double weight, p_s, dilation;
                 own(fields, point, kernel, weight, p_s, dilation);
                 const double share = kernel.value((points.place(point) - place(s, i)).norm()) * s.volume[i];
-                wall_pressure_[point] += share * p_s;
+                wall_pressure_[point] += share * full * p_s;
                 wetness_[point] += share;
                 if (viscosity > 0 && panels.panels[std::size_t(points.cell[point].panel)].no_slip)
                     shear_[point] += share * viscosity * shear_rate(s, i, point, spacing_);
+                const Vec<D> n = points.outward(point);
+                normals += weight * n * n.transpose();
+                weights += weight;
+            }
+            if (full == 1 || weights == 0) continue;
+            Vec<D> reaction;
+            for (int d = 0; d < D; ++d) reaction[d] = -b.reaction[k * D + std::size_t(d)];
+            const Vec<D> along = normal_part(normals, weights, reaction);
+            for (std::size_t q = range.begin; q < range.end; ++q) {
+                const std::size_t point = b.point[q];
+                if (point == points.size()) continue;
+                double weight, p_s, dilation;
+                own(fields, point, kernel, weight, p_s, dilation);
+                const Vec<D> n = points.outward(point);
+                add_to_vertices(point, (1 - full) * weight * along.dot(n) * n, vertex_forces);
             }
         }
     for (std::size_t point = 0; point < points.size(); ++point) {

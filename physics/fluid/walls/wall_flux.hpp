@@ -10,6 +10,12 @@
 
 namespace aquagraph::fluid {
 
+// Between the fullness at which a support counts as open and that at which it counts as full, the corrections fade in.
+inline double fade(double fullness) {
+    const double s = std::clamp((fullness - 0.8) / 0.15, 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+}
+
 // Quadrature points as a lane loop reads them.
 template <int D>
 struct PointFields {

@@ -82,6 +82,13 @@ Vec<D> WallPoints<D>::place(std::size_t point) const {
 }
 
 template <int D>
+Vec<D> WallPoints<D>::outward(std::size_t point) const {
+    Vec<D> n;
+    for (int d = 0; d < D; ++d) n[d] = normal[std::size_t(d)][point];
+    return n;
+}
+
+template <int D>
 Vec<D> WallPoints<D>::vertex(const Panels<D>& panels, std::size_t number, std::size_t k) const {
     Vec<D> at = Vec<D>::Zero();
     for (std::size_t a = 0; a < D; ++a)

@@ -29,6 +29,7 @@ struct WallPoints {
     // Places of points after the panels have moved; panels.update_geometry() comes first.
     void update(const Panels<D>& panels);
     Vec<D> place(std::size_t point) const;
+    Vec<D> outward(std::size_t point) const;  // its normal, out of the fluid
     // Present place of a cell's vertex.
     Vec<D> vertex(const Panels<D>& panels, std::size_t cell_number, std::size_t k) const;
 
