@@ -82,6 +82,7 @@ void WallForces<D>::compute(Fluid<D>& fluid, std::size_t block) {
             for (std::size_t d = 0; d < D; ++d) acceleration[d][i - lanes.begin] = particles.acceleration[d][i];
         }
         compute_fluxes(particles, lists_, fluid.kernel, fluid.flux, fluid.tait, lanes);
+        if (fluid.viscosity.dynamic > 0) add_viscosity(particles, lists_, fluid.kernel, fluid.viscosity, lanes);
         for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
             for (std::size_t d = 0; d < D; ++d) {
                 sum[int(d)] -= particles.mass[i] * (particles.acceleration[d][i] - fluid.flux.gravity[d]);

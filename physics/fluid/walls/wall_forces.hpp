@@ -1,8 +1,9 @@
 // The force of the fluid on single walls of ghosts: minus the boundary terms of the momentum equation (thesis (5.40)),
 //     F_w = - Σ_i Σ_{ghosts j of w} [force on i from j],
-// found by the scheme's own flux pass over lists that hold the ghosts of this wall and nothing else, so that it is what
-// the fluid feels whatever the scheme. The forces of all walls, the fluid's weight and its rate of momentum balance to
-// rounding. A ghost of a corner between two walls belongs to the one through which it is seen.
+// found by the scheme's own flux pass, and in viscous water by its viscosity, over lists that hold the ghosts of this
+// wall and nothing else, so that it is what the fluid feels whatever the scheme. The forces of all walls, the fluid's
+// weight and its rate of momentum balance to rounding. A ghost of a corner between two walls belongs to the one through
+// which it is seen.
 #pragma once
 #include <cstdint>
 #include <string>
