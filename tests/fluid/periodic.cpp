@@ -238,6 +238,47 @@ TEST_CASE("one period does what two do: alone, between walls, with a body beside
         20);
 }
 
+TEST_CASE("a wall that is longer than the period is one wall") {
+    // It lies beside its own copies at the seam, and along all of the period where it goes round half once more.
+    const auto sums_over = [](double from, double to, auto dimension) {
+        constexpr int D = dimension();
+        std::array<int, D> cells;
+        cells.fill(6);
+        cells[0] = 12;
+        std::array<bool, D> along;
+        along.fill(true);
+        along[D - 1] = false;
+        Panels<D> panels;
+        if constexpr (D == 2)
+            panels.add_wall("floor", {{from, 0}, {to, 0}}, false, true);
+        else
+            panels.add_wall("floor", {{from, 0, 0}, {to, 0, 0}, {to, 6 * spacing, 0}, {from, 6 * spacing, 0}},
+                            {{0, 1, 2}, {0, 2, 3}}, true);
+        Driver<D> driver(make_fluid<D>(spacing, water));
+        driver.walls = periodic_walls<D>(cells, along, panels);
+        Random random;
+        driver.fluid.particles = place<D>(lattice<D>(cells, spacing, 0, random), spacing);
+        driver.rebuild();
+        std::vector<double> sums;
+        for (std::size_t i = 0; i < driver.fluid.particles.count; ++i)
+            sums.push_back(partition_of_unity(driver.fluid, i));
+        return sums;
+    };
+    const double period = 12 * spacing;
+    const auto compare = [&](auto dimension) {
+        const auto right = sums_over(0, period, dimension);
+        for (const auto& [from, to] : {std::pair(-0.3, period + 0.25), std::pair(0.0, 1.5 * period)}) {
+            CAPTURE(to);
+            const auto sums = sums_over(from, to, dimension);
+            double off = 0;
+            for (std::size_t i = 0; i < right.size(); ++i) off = std::max(off, std::fabs(sums[i] - right[i]));
+            CHECK(off < 1e-12);
+        }
+    };
+    compare(std::integral_constant<int, 2>());
+    compare(std::integral_constant<int, 3>());
+}
+
 TEST_CASE("a period shorter than the lists reach is refused") {
     Driver<2> driver(make_fluid<2>(spacing, water));
     Random random;

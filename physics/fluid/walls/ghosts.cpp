@@ -150,6 +150,7 @@ void GhostWalls<D>::collect_panels(std::size_t j, const Vec<D>& x, const typenam
                                    double spacing, double reach) {
     const double tolerance = 0.5 * spacing;
     constexpr auto none = std::numeric_limits<std::size_t>::max();
+    const std::size_t first = unsorted_.size();
     mirrored_by_.clear();
     for (std::size_t entry = 0; entry < cell.panel.size(); ++entry) {
         const auto panel = std::size_t(cell.panel[entry]);
@@ -177,9 +178,26 @@ void GhostWalls<D>::collect_panels(std::size_t j, const Vec<D>& x, const typenam
             const Vec<D> foot = x - (d - 1e-6 * spacing) * panels.normal[panel];
             if (PanelGrid<D>::first_crossing(cell, x, foot).entry >= 0) continue;
         }
+        const Ghost ghost{std::uint32_t(j), int(panel), -1, std::uint8_t(copy), 0};
+        if (periodic.any() && mirrors_already(first, x, ghost, spacing)) continue;
         if (D == 3) mirrored_by_.back().ghost = unsorted_.size();
-        unsorted_.push_back({std::uint32_t(j), int(panel), -1, std::uint8_t(copy), 0});
+        unsorted_.push_back(ghost);
     }
+}
+
+// A wall that is longer than the period lies beside its own copy: what one of the two mirrors, the other would mirror
+// to the same place.
+template <int D>
+bool GhostWalls<D>::mirrors_already(std::size_t first, const Vec<D>& x, const Ghost& ghost, double spacing) const {
+    const auto image = [&](const Ghost& of) {
+        const Vec<D> shift = periodic.shift(of.wall_copy);
+        return Vec<D>(mirror(x - shift, of).image + shift);
+    };
+    for (std::size_t g = first; g < unsorted_.size(); ++g)
+        if (unsorted_[g].wall_copy != ghost.wall_copy &&
+            (image(unsorted_[g]) - image(ghost)).squaredNorm() < 1e-12 * spacing * spacing)
+            return true;
+    return false;
 }
 
 template <int D>

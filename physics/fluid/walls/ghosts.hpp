@@ -76,6 +76,7 @@ class GhostWalls {
     void collect(const Particles<D>& particles, double spacing, double reach);
     void collect_panels(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell, double spacing,
                         double reach);
+    bool mirrors_already(std::size_t first, const Vec<D>& x, const Ghost& ghost, double spacing) const;
     void collect_corners(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell, double spacing,
                          double reach);
     void collect_images(const Particles<D>& particles, const Ghost& ghost, double reach);
