@@ -57,12 +57,17 @@ void print_table(std::ostream& out, const RunFigures& figures) {
 }
 
 void print_comparisons(std::ostream& out, const std::vector<io::Comparison>& comparisons) {
-    for (const io::Comparison& c : comparisons)
-        if (c.error)
+    for (const io::Comparison& c : comparisons) {
+        if (!c.error) continue;
+        if (c.points == 0)
+            out << fmt::format("{} against {}: nothing to compare in [{:g}, {:g}] s, which the run has not reached\n",
+                               c.column, c.label, c.window[0], c.window[1]);
+        else
             out << fmt::format(
                 "{} against {}: RMS {:.4g} {} ({:.1f} % of the peak), mean {:+.3g} {}, {} points in [{:g}, {:g}] s\n",
                 c.column, c.label, c.rms, c.unit, 100 * c.normalised, c.mean, c.unit, c.points, c.window[0],
                 c.window[1]);
+    }
 }
 
 template <int D>

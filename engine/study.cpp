@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <csignal>
 #include <ostream>
 #include <stdexcept>
@@ -48,7 +49,8 @@ std::string in_short(const RunRecord& record) {
     if (!record.failure.empty()) return "failed: " + record.failure;
     std::string text = fmt::format("{:.1f} s", record.wall_seconds);
     for (const RunError& error : record.errors)
-        text += fmt::format(", {} {:.3g} %", error.label, 100 * error.normalised);
+        text += std::isfinite(error.normalised) ? fmt::format(", {} {:.3g} %", error.label, 100 * error.normalised)
+                                                : fmt::format(", {}: outside the run", error.label);
     return text;
 }
 

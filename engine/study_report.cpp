@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -43,8 +44,9 @@ const RunError* main_error(const io::StudyCase& one, const RunRecord& record) {
     return nullptr;
 }
 
+// Only a comparison without a point within the run has an error that is no number.
 std::string percent(double error) {
-    return std::isfinite(error) ? fmt::format("{:.3g} %", 100 * error) : "–";
+    return std::isfinite(error) ? fmt::format("{:.3g} %", 100 * error) : "outside the run";
 }
 
 // A bar would end the cell.
@@ -108,9 +110,9 @@ class CaseTable {
             }
             const double wall = median_of(*result, &RunRecord::wall_seconds);
             const RunError* main = main_error(case_, *record);
-            text += fmt::format(" {} | {:.3g} | {:.3g} | {} |\n", record->evaluations,
-                                median_of(*result, &RunRecord::cpu_seconds), wall,
-                                main ? fmt::format("{:.3g}", wall * main->normalised) : "–");
+            text += fmt::format(
+                " {} | {:.3g} | {:.3g} | {} |\n", record->evaluations, median_of(*result, &RunRecord::cpu_seconds),
+                wall, main && std::isfinite(main->normalised) ? fmt::format("{:.3g}", wall * main->normalised) : "–");
             coarser = record;
             coarser_h = result->run.resolution;
         }
@@ -134,6 +136,14 @@ std::string in_quotes(const std::string& text) {
 }
 
 }  // namespace
+
+std::string line_style(std::size_t k) {
+    constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+                                    "#8c564b", "#5e3c99", "#000000", "#a6a61d", "#e41a1c", "#7f7f7f"};
+    constexpr std::array points = {7, 5, 9, 13, 11, 6, 4, 8, 12};  // gnuplot's: filled ones, then open ones
+    return fmt::format("linecolor rgb \"{}\" dashtype {} pointtype {}", colours[k % colours.size()],
+                       1 + k / colours.size() % 4, points[k % points.size()]);
+}
 
 double observed_order(double coarse_error, double fine_error, double coarse_h, double fine_h) {
     if (!(coarse_error > 0) || !(fine_error > 0) || !(coarse_h > 0) || !(fine_h > 0) || coarse_h == fine_h) return NAN;
@@ -171,6 +181,7 @@ std::vector<std::filesystem::path> draw_plots(const io::Study& study, const std:
     for (std::size_t c = 0; c < study.cases.size(); ++c) {
         const io::StudyCase& one = study.cases[c];
         std::string data, lines, quantity;
+        std::size_t drawn = 0;
         for (const std::string& name : one.variants) {
             std::string points, label;
             for (const StudyResult& result : results) {
@@ -186,8 +197,8 @@ std::vector<std::filesystem::path> draw_plots(const io::Study& study, const std:
             if (points.empty()) continue;
             const std::string block = fmt::format("${}", name);
             data += fmt::format("{} << EOD\n{}EOD\n", block, points);
-            lines += fmt::format("{}{} with linespoints pointtype 7 title {}", lines.empty() ? "" : ", ", block,
-                                 in_quotes(label));
+            lines += fmt::format("{}{} with linespoints {} title {}", lines.empty() ? "" : ", ", block,
+                                 line_style(drawn++), in_quotes(label));
         }
         if (lines.empty()) continue;
         const std::filesystem::path file = folder / fmt::format("{}_{}.svg", study.name, one.name),

@@ -18,6 +18,10 @@ struct StudyResult {
 // p of e ~ h^p; NaN where an error is not a positive number.
 double observed_order(double coarse_error, double fine_error, double coarse_h, double fine_h);
 
+// What gnuplot is to draw the k-th curve of a plot with: colour, dashes, points. No two of the first 36 are the same,
+// and the first 12 differ in colour.
+std::string line_style(std::size_t k);
+
 // The section without its markers. plots: the file of each case's plot as the Markdown refers to it; empty: none.
 std::string study_markdown(const io::Study& study, const std::vector<StudyResult>& results,
                            const std::vector<std::string>& plots, int threads, bool coarse);

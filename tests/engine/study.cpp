@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "engine/study.hpp"
@@ -120,6 +121,25 @@ TEST_CASE("a study writes a table with the errors, their order and the time of e
         CHECK(text.find("](plots/tiny_patch.svg)") != std::string::npos);
         CHECK(contents(bench.folder / "plots/tiny_patch.svg").find("MUSCL") != std::string::npos);
     }
+}
+
+TEST_CASE("a comparison with nothing to compare says so") {
+    Bench bench(matrix, with(patch, "label = \"energy\"", "label = \"energy\"\nwindow = [5, 6]"));
+    std::string printed;
+    REQUIRE(bench.run(bench.options(), &printed) == engine::success);
+    const std::string text = bench.results();
+    CHECK(lines_with(text, "| outside the run |") == 4);
+    CHECK(text.find("nan") == std::string::npos);
+    CHECK((printed + bench.said).find("energy: outside the run") != std::string::npos);
+    CHECK((printed + bench.said).find("nan") == std::string::npos);
+}
+
+TEST_CASE("no two of many variants are drawn alike") {
+    std::set<std::string> styles, colours;
+    for (std::size_t k = 0; k < 36; ++k) styles.insert(engine::line_style(k));
+    for (std::size_t k = 0; k < 12; ++k) colours.insert(engine::line_style(k).substr(0, 24));
+    CHECK(styles.size() == 36);
+    CHECK(colours.size() == 12);
 }
 
 TEST_CASE("finished runs are kept until the scene or the study wants something else") {
