@@ -46,7 +46,7 @@ Task wall_gradients(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, co
 }
 
 template <int D>
-Task wall_friction(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label) {
+Task wall_friction(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label) {
     return {.name = "wall friction (" + label + ")",
             .reads = {resource::walls, resource::fluid_lists, resource::fluid_state},
             .writes = {resource::fluid_rates},
@@ -86,8 +86,8 @@ template Task wall_motion(fluid::NormalFluxWalls<2>&, const fluid::MovingWalls<2
                           const Clock&, double, const std::string&);
 template Task wall_motion(fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3>*, const coupling::Interface*,
                           const Clock&, double, const std::string&);
-template Task wall_friction(fluid::Fluid<2>&, const fluid::NormalFluxWalls<2>&, const std::string&);
-template Task wall_friction(fluid::Fluid<3>&, const fluid::NormalFluxWalls<3>&, const std::string&);
+template Task wall_friction(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
+template Task wall_friction(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
 template Task wall_gamma(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
 template Task wall_gamma(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
 template Task wall_gradients(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);

@@ -22,7 +22,7 @@ template <int D>
 Task wall_gradients(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
 // Between fluxes (and viscosity) and wall_fluxes, which divide all of them by γ.
 template <int D>
-Task wall_friction(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label);
+Task wall_friction(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
 // After the fluxes, before body forces.
 template <int D>
 Task wall_fluxes(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);

@@ -251,7 +251,7 @@ void NormalFluxWalls<D>::add_fluxes_with(Particles<D>& s, const K& kernel, const
             const double pairs = s.acceleration[a][i] - parameters.gravity[a];
             const double all = (pairs + inverse_rho * (add_lanes(force[a]) + correction)) / gamma;
             s.acceleration[a][i] = parameters.gravity[a] + all;
-            b.reaction[k * D + std::size_t(a)] = s.mass[i] * (all - pairs);
+            b.reaction[k * D + std::size_t(a)] = s.mass[i] * (all - pairs) + b.friction[k * D + std::size_t(a)];
         }
     }
 }

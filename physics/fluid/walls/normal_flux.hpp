@@ -97,7 +97,7 @@ class NormalFluxWalls {
     // half a spacing:   m_i dv_i/dt -= ω_i Σ_s 2 µ (v_i - v_w)_tangential/h W_is A_s.
     // Explicit steps must be shorter by friction_factor().
     void add_shear(Particles<D>& particles, const Kernel<D>& kernel, double viscosity, double spacing,
-                   std::size_t block) const;
+                   std::size_t block);
 
     // Forces of the fluid on the vertices of all panels [N] ([N/m] in 2D), by linear shape functions at the points;
     // added to vertex_forces, one entry per vertex, serially and in a fixed order.
@@ -143,6 +143,7 @@ class NormalFluxWalls {
         std::vector<std::uint32_t> point;  // whole clusters of W
         std::vector<std::int32_t> piece;   // what γ is made of: k: panel k, ~s: cell s
         Scalars C0, C1;                    // D and D × D of each particle
+        Scalars friction;                  // D of each particle: what add_shear has last done to its momentum
         Scalars reaction;                  // D of each particle: rate of momentum beside the symmetric pair forces
         std::uint64_t pairs = 0;
         std::size_t floored = 0;
@@ -158,8 +159,7 @@ class NormalFluxWalls {
     void add_fluxes_with(Particles<D>& particles, const K& kernel, const FluxParameters& parameters,
                          double reference_density, std::size_t block);
     template <class K>
-    void add_shear_with(Particles<D>& particles, const K& kernel, double viscosity, double spacing,
-                        std::size_t block) const;
+    void add_shear_with(Particles<D>& particles, const K& kernel, double viscosity, double spacing, std::size_t block);
     template <class K>
     void add_reactions_with(const Particles<D>& particles, const K& kernel, const FluxParameters& parameters,
                             std::vector<Vec<D>>& vertex_forces) const;

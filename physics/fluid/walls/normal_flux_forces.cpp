@@ -36,15 +36,15 @@ Vec<D> NormalFluxWalls<D>::shear_rate(const Particles<D>& s, std::size_t i, std:
 
 template <int D>
 void NormalFluxWalls<D>::add_shear(Particles<D>& s, const Kernel<D>& kernel, double viscosity, double spacing,
-                                   std::size_t block) const {
+                                   std::size_t block) {
     kernel.visit([&](const auto& k) { add_shear_with(s, k, viscosity, spacing, block); });
 }
 
 template <int D>
 template <class K>
 void NormalFluxWalls<D>::add_shear_with(Particles<D>& s, const K& kernel, double viscosity, double spacing,
-                                        std::size_t block) const {
-    const NearBlock& b = near_[block];
+                                        std::size_t block) {
+    NearBlock& b = near_[block];
     for (std::size_t k = 0; k < b.near.size(); ++k) {
         const std::size_t i = b.near[k].particle;
         const Vec<D> x = place(s, i);
@@ -56,7 +56,10 @@ void NormalFluxWalls<D>::add_shear_with(Particles<D>& s, const K& kernel, double
             sum += 2 * viscosity * kernel.value((points.place(point) - x).norm()) * points.area[point] *
                    shear_rate(s, i, point, spacing);
         }
-        for (int d = 0; d < D; ++d) s.acceleration[std::size_t(d)][i] -= s.volume[i] / s.mass[i] * sum[d];
+        for (int d = 0; d < D; ++d) {
+            s.acceleration[std::size_t(d)][i] -= s.volume[i] / s.mass[i] * sum[d];
+            b.friction[k * D + std::size_t(d)] = -s.volume[i] * sum[d];
+        }
     }
 }
 
@@ -177,8 +180,8 @@ template Vec<2> NormalFluxWalls<2>::shear_rate(const Particles<2>&, std::size_t,
 template Vec<3> NormalFluxWalls<3>::shear_rate(const Particles<3>&, std::size_t, std::size_t, double) const;
 template void NormalFluxWalls<2>::add_to_vertices(std::size_t, const Vec<2>&, std::vector<Vec<2>>&) const;
 template void NormalFluxWalls<3>::add_to_vertices(std::size_t, const Vec<3>&, std::vector<Vec<3>>&) const;
-template void NormalFluxWalls<2>::add_shear(Particles<2>&, const Kernel<2>&, double, double, std::size_t) const;
-template void NormalFluxWalls<3>::add_shear(Particles<3>&, const Kernel<3>&, double, double, std::size_t) const;
+template void NormalFluxWalls<2>::add_shear(Particles<2>&, const Kernel<2>&, double, double, std::size_t);
+template void NormalFluxWalls<3>::add_shear(Particles<3>&, const Kernel<3>&, double, double, std::size_t);
 template void NormalFluxWalls<2>::add_reactions(const Particles<2>&, const Kernel<2>&, const FluxParameters&,
                                                 std::vector<Vec<2>>&) const;
 template void NormalFluxWalls<3>::add_reactions(const Particles<3>&, const Kernel<3>&, const FluxParameters&,
