@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <thread>
 #include <utility>
@@ -82,6 +83,18 @@ struct ThreadedLoop {
             });
         for (std::thread& thread : team) thread.join();
     }
+};
+
+// The same numbers in [-1, 1[ on every run.
+class Random {
+  public:
+    double operator()() {
+        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+        return static_cast<double>(state_ >> 11) / 4503599627370496.0 - 1;
+    }
+
+  private:
+    std::uint64_t state_ = 42;
 };
 
 struct Mode {
