@@ -43,6 +43,12 @@ struct Cholesky::Implementation {
         cholmod_free_sparse(&matrix, &common);
         cholmod_finish(&common);
     }
+    // Finds the order of elimination, once.
+    void analyse() {
+        if (factor != nullptr) return;
+        factor = cholmod_analyze(matrix, &common);
+        if (factor == nullptr) throw std::runtime_error("CHOLMOD cannot analyse the stiffness matrix of the solid");
+    }
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
 };
@@ -58,17 +64,17 @@ Cholesky::Cholesky(const std::vector<int>& column_starts, const std::vector<int>
     if (self.matrix == nullptr || self.right_side == nullptr) throw std::bad_alloc();
     std::copy(column_starts.begin(), column_starts.end(), static_cast<int*>(self.matrix->p));
     std::copy(rows.begin(), rows.end(), static_cast<int*>(self.matrix->i));
-    self.factor = cholmod_analyze(self.matrix, &self.common);
-    if (self.factor == nullptr) throw std::runtime_error("CHOLMOD cannot analyse the stiffness matrix of the solid");
 }
 
 Cholesky::~Cholesky() = default;
 
 double Cholesky::nonzeros() const {
+    implementation_->analyse();
     return implementation_->common.lnz;
 }
 
 double Cholesky::factorisation_operations() const {
+    implementation_->analyse();
     return implementation_->common.fl;
 }
 
@@ -82,6 +88,7 @@ std::span<const double> Cholesky::values() const {
 
 bool Cholesky::factorise() {
     Implementation& self = *implementation_;
+    self.analyse();
     cholmod_factorize(self.matrix, self.factor, &self.common);
     if (self.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (self.common.status != CHOLMOD_OK) return false;

@@ -16,7 +16,6 @@ bool Solver<D>::Implementation::solve_lumped(BlockLoop) {
     for (std::size_t e = 0; e < equations; ++e)
         correction[e] = residual[e] / assembly.lumped_masses()[assembly.freedoms()[e] / D];
     if (unknowns == 0) return true;
-    Border small(0, unknowns);
     for (std::size_t n = 0; n < unknowns; ++n) {
         std::fill(column_product.begin(), column_product.end(), 0.0);
         bodies.column(n, bodies.motions(), column_product);
@@ -24,14 +23,15 @@ bool Solver<D>::Implementation::solve_lumped(BlockLoop) {
         for (std::size_t m = 0; m < unknowns; ++m) {
             std::fill(column.begin(), column.end(), 0.0);
             bodies.column(m, bodies.motions(), column);
-            double& entry = small.corner(m, n);
+            double& entry = lumped_border.corner(m, n);
             entry = bodies.own_mass(m, n, bodies.motions());
             for (std::size_t f = 0; f < column.size(); ++f) entry += column[f] * column_product[f];
         }
     }
     const auto nothing = [](std::span<const double>, std::span<double>) { return true; };
     const auto body_residual = std::span<const double>(residual).subspan(equations);
-    return small.condense(nothing) && small.solve(body_residual, std::span(correction).subspan(equations), nothing);
+    return lumped_border.condense(nothing) &&
+           lumped_border.solve(body_residual, std::span(correction).subspan(equations), nothing);
 }
 
 template <int D>

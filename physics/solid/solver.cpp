@@ -71,7 +71,8 @@ Solver<D>::Implementation::Implementation(Mesh<D> given_mesh, const Options<D>& 
       surface_loads(mesh, options),
       cholesky(assembly.column_starts(), assembly.rows()),
       gradients(assembly.column_starts(), assembly.rows()),
-      border(assembly.equations(), bodies.unknowns().size()) {
+      border(assembly.equations(), bodies.unknowns().size()),
+      lumped_border(0, bodies.unknowns().size()) {
     require(assembly.equations() > 0, "the clamps leave nothing free");
     for (auto* field : {&u, &v, &a, &positions, &loads, &internal, &inertia, &external, &previous_external,
                         &previous_internal, &old_u, &old_v, &old_a, &predicted_u, &static_start, &momentum})

@@ -144,6 +144,7 @@ struct Solver<D>::Implementation {
     Cholesky cholesky;
     ConjugateGradients gradients;
     Border border;
+    Border lumped_border;  // of the explicit scheme: bodies alone
 
     double time = 0, old_time = 0;
     double load_factor = 1;  // of the loads on surfaces: less than 1 on the way of a static solve

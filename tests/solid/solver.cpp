@@ -139,6 +139,25 @@ TEST_CASE("a step allocates nothing while its factorisation is reused, CHOLMOD i
     CHECK(made == 0);
 }
 
+TEST_CASE("an explicit step of a wheel on the ground, damped, allocates nothing") {
+    const CountCholmodToo counting;
+    const Mesh<2> mesh = box_mesh({0, 0}, {0.2, 0.1}, 4, 2);
+    Options<2> options = gate_options();
+    options.clamps = {};
+    options.scheme = Scheme::central_difference;
+    options.mass_damping = 1;
+    options.stiffness_damping = 1e-7;
+    options.rigid_bodies = {{.set = "top", .mass = 1}};
+    options.contacts = {{"bottom", {.point = {0, 0}, .direction = {0, 1}}, 0.5}};
+    Solver<2> solver(mesh, options);
+    const double dt = solver.largest_stable_step();
+    for (int k = 0; k < 5; ++k) solver.advance(dt, no_load(mesh), serial_loop);
+    const auto load = no_load(mesh);
+    const long counted = allocations();
+    for (int k = 0; k < 20; ++k) solver.advance(dt, load, serial_loop);
+    CHECK(allocations() - counted == 0);
+}
+
 TEST_CASE("the factorisation is reused, also when the step changes a little, and renewed when it changes much") {
     const Mesh<2> mesh = gate_mesh();
     const auto load = traction(mesh, "left", {50, 0});
