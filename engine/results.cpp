@@ -246,11 +246,14 @@ void Results<D>::record_flow() {
         if (model_.solid) frame.walls = surface_facets(*model_.solid, boundary_);
     if (D == 2 && model_.solid) {
         const auto x = model_.solid->positions();
-        std::vector<io::Point> outline;
-        for (const solid::Facet& edge : boundary_)
+        for (std::size_t e = 0; e < boundary_.size(); ++e) {
+            const solid::Facet& edge = boundary_[e];
+            if (e == 0 || boundary_[e - 1][1] != edge[0])
+                frame.outlines.emplace_back();  // the next closed line: a hole
             for (std::size_t k = 0; k < edge.size(); ++k)
-                if (k != 1) outline.push_back({x[2 * std::size_t(edge[k])], x[2 * std::size_t(edge[k]) + 1]});
-        frame.outlines.push_back(std::move(outline));
+                if (k != 1)
+                    frame.outlines.back().push_back({x[2 * std::size_t(edge[k])], x[2 * std::size_t(edge[k]) + 1]});
+        }
     }
     if (model_.walls || model_.flux_walls) frame.walls = moving_panels(scene_, panels_of(model_));
     flow_.add(frame);

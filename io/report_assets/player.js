@@ -72,9 +72,12 @@
 
   function path(flat, closed, dimension) {
     pen.beginPath();
+    addLine(flat, closed, dimension);
+  }
+  function addLine(flat, closed, dimension) {
     for (let i = 0; i + dimension <= flat.length; i += dimension) {
       const [u, v] = seen(flat.slice(i, i + dimension));
-      pen.lineTo(X(u), Y(v));
+      if (i === 0) pen.moveTo(X(u), Y(v)); else pen.lineTo(X(u), Y(v));
     }
     if (closed) pen.closePath();
   }
@@ -168,11 +171,10 @@
     if (D === 3) walls(1);
     particles(frame);
     pen.lineJoin = "round";
-    for (const outline of frame.outlines) {
-      path(outline, true, 2);
-      pen.fillStyle = css("--solid-fill"); pen.fill();
-      pen.strokeStyle = css("--solid-line"); pen.lineWidth = 1.4; pen.stroke();
-    }
+    pen.beginPath();
+    for (const outline of frame.outlines) addLine(outline, true, 2);
+    pen.fillStyle = css("--solid-fill"); pen.fill("evenodd");  // holes stay open
+    pen.strokeStyle = css("--solid-line"); pen.lineWidth = 1.4; pen.stroke();
     walls(D === 3 ? 0.25 : 1);  // in space the water stands before them, and they before the water
     legend();
     moment.value = shown;

@@ -293,3 +293,38 @@ point = [0.1, 0.05]
     CHECK(held.last("root_y") == 0);
     CHECK(held.largest("solid_kinetic_energy") > 0);
 }
+
+TEST_CASE("the film of a body with a hole draws two closed lines, not one through both") {
+    // A square frame of eight unit squares around a hole.
+    std::string nodes = "16\n", elements = "9\n";
+    for (int n = 0; n < 16; ++n)
+        nodes += std::to_string(n + 1) + " " + std::to_string(n % 4) + " " + std::to_string(n / 4) + " 0\n";
+    int number = 1;
+    for (int e = 0; e < 9; ++e)
+        if (e != 4) {
+            const int a = e % 3 + 4 * (e / 3) + 1;
+            elements += std::to_string(number++) + " 3 2 2 1 " + std::to_string(a) + " " + std::to_string(a + 1) + " " +
+                        std::to_string(a + 5) + " " + std::to_string(a + 4) + "\n";
+        }
+    elements += std::to_string(number) + " 1 2 1 1 1 2\n";
+    ScratchFolder folder;
+    folder.write("frame.msh",
+                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"foot\"\n2 2 \"all\"\n"
+                 "$EndPhysicalNames\n$Nodes\n" +
+                     nodes + "$EndNodes\n$Elements\n" + elements + "$EndElements\n");
+    std::string scene = block("name = \"static\"\n", "[0.0, -1.0]", 1.0);
+    const auto box = scene.find("[solid.box]"), end = scene.find("[solid.material]");
+    scene.replace(box, end - box, "mesh = \"frame.msh\"\n");
+    scene += "[[solid.clamp]]\nset = \"foot\"\n";
+    const io::Scene read = io::read_scene(folder.write("scene.toml", scene));
+    std::ostringstream out, err;
+    REQUIRE(engine::run(read, {.folder = folder / "results", .trace = {}, .threads = 1, .quiet = true}, out, err) ==
+            engine::success);
+    const std::string report = contents(folder / "results" / "report.html");
+    const auto outlines = report.find("\"outlines\":[[");
+    REQUIRE(outlines != std::string::npos);
+    const std::string frame = report.substr(outlines, report.find("]]", outlines) - outlines);
+    CHECK(count(frame, "],[") == 1);
+    // Outside 12 edges, inside 4; with the nodes in their middles twice as many points of two numbers.
+    CHECK(count(frame, ",") == 2 * 2 * 16 - 1);
+}
