@@ -2,20 +2,17 @@
 // scene_solid_keys.cpp. io/scene_keys.cpp says what is done with them.
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "io/scene_fluid_keys.hpp"
 #include "io/scene_keys.hpp"
 #include "io/scene_solid_keys.hpp"
+#include "io/value_ranges.hpp"
 
 namespace aquagraph::io {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr ValueRange any{};
-constexpr ValueRange positive{0, inf, true, true};
-constexpr ValueRange at_least_one{1, inf, false, true};
+using namespace ranges;
 
 constexpr auto sections = std::to_array<SceneSection>({
     {"", false, true, "Before any table."},

@@ -1,19 +1,15 @@
 #include "io/scene_solid_keys.hpp"
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "io/scene_time_law.hpp"
+#include "io/value_ranges.hpp"
 
 namespace aquagraph::io {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr ValueRange any{};
-constexpr ValueRange positive{0, inf, true, true};
-constexpr ValueRange not_negative{0, inf, false, true};
-constexpr ValueRange at_least_one{1, inf, false, true};
+using namespace ranges;
 
 constexpr auto sections = std::to_array<SceneSection>({
     {"solid", false, false,

@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "io/comparison.hpp"
+#include "io/value_ranges.hpp"
 
 namespace aquagraph::io {
 
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr ValueRange any{}, positive{0, inf, true, true}, not_negative{0, inf, false, true};
+using namespace ranges;
 constexpr const char* table_help = "rows of two columns, time [s] and value, in increasing time; t = 0 lies among them";
 
 }  // namespace

@@ -4,21 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <system_error>
 
 #include "io/atomic_file.hpp"
 #include "io/suggestion.hpp"
 #include "io/toml_document.hpp"
+#include "io/value_ranges.hpp"
 
 namespace aquagraph::io {
 namespace {
 
 using K = KeyKind;
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr ValueRange any{};
-constexpr ValueRange positive{0, inf, true, true};
-constexpr ValueRange at_least_one{1, inf, false, true};
+using namespace ranges;
 
 constexpr auto sections = std::to_array<SceneSection>({
     {"", false, true, "Before any table."},
