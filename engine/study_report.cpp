@@ -67,14 +67,18 @@ class CaseTable {
             if (result.run.study_case == number) by_variant_[result.run.variant].push_back(&result);
         for (const auto& [variant, levels] : by_variant_)
             for (const StudyResult* result : levels)
-                if (const RunRecord* record = good_repeat(*result); record && columns_.empty())
-                    columns_ = record->errors;
+                if (const RunRecord* record = good_repeat(*result)) {
+                    if (columns_.empty()) columns_ = record->errors;
+                    has_water_ = record->particles > 0;
+                }
     }
 
     std::string text() const {
-        std::string text = fmt::format("| variant | {} | particles |", in_a_cell(case_.resolution_key));
+        std::string text =
+            fmt::format("| variant | {} | {} |", in_a_cell(case_.resolution_key), has_water_ ? "particles" : "nodes");
         for (const RunError& error : columns_) text += fmt::format(" {} | p |", in_a_cell(error.label));
-        text += " evaluations | CPU [s] | wall [s] | wall × error [s] |\n|---|---|---|";
+        text += has_water_ ? " evaluations |" : " Newton iterations |";
+        text += " CPU [s] | wall [s] | wall × error [s] |\n|---|---|---|";
         for (std::size_t k = 0; k < columns_.size(); ++k) text += "---|---|";
         text += "---|---|---|---|\n";
         for (const std::string& name : case_.variants)
@@ -99,7 +103,7 @@ class CaseTable {
                 coarser = nullptr;
                 continue;
             }
-            text += fmt::format(" {} |", record->particles);
+            text += fmt::format(" {} |", has_water_ ? record->particles : record->nodes);
             for (std::size_t k = 0; k < columns_.size(); ++k) {
                 const double error = k < record->errors.size() ? record->errors[k].normalised : NAN;
                 const double p =
@@ -111,8 +115,9 @@ class CaseTable {
             const double wall = median_of(*result, &RunRecord::wall_seconds);
             const RunError* main = main_error(case_, *record);
             text += fmt::format(
-                " {} | {:.3g} | {:.3g} | {} |\n", record->evaluations, median_of(*result, &RunRecord::cpu_seconds),
-                wall, main && std::isfinite(main->normalised) ? fmt::format("{:.3g}", wall * main->normalised) : "–");
+                " {} | {:.3g} | {:.3g} | {} |\n", has_water_ ? record->evaluations : record->newton_iterations,
+                median_of(*result, &RunRecord::cpu_seconds), wall,
+                main && std::isfinite(main->normalised) ? fmt::format("{:.3g}", wall * main->normalised) : "–");
             coarser = record;
             coarser_h = result->run.resolution;
         }
@@ -123,6 +128,7 @@ class CaseTable {
     const io::StudyCase& case_;
     std::map<std::size_t, std::vector<const StudyResult*>> by_variant_;  // coarse to fine
     std::vector<RunError> columns_;
+    bool has_water_ = true;
 };
 
 // Within double quotes of gnuplot.

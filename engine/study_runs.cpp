@@ -91,6 +91,8 @@ RunRecord record_of(const nlohmann::json& summary) {
     record.steps = summary.at("steps").get<long>();
     record.particles = summary.value("particles", 0L) + summary.value("particles_removed", 0L);
     record.evaluations = evaluations_of(summary);
+    record.nodes = summary.value("nodes", 0L);
+    if (summary.contains("solid")) record.newton_iterations = summary["solid"].at("newton_iterations").get<long>();
     for (const auto& comparison : summary.at("comparisons")) {
         const auto& error = comparison.at("normalised_rms");
         record.errors.push_back({comparison.at("label").get<std::string>(), comparison.at("column").get<std::string>(),
@@ -197,6 +199,8 @@ std::optional<RunRecord> kept_run(const std::filesystem::path& folder, const Stu
                          .particles = json.at("particles").get<long>(),
                          .steps = json.at("steps").get<long>(),
                          .evaluations = json.at("evaluations").get<long>(),
+                         .nodes = json.at("nodes").get<long>(),
+                         .newton_iterations = json.at("newton_iterations").get<long>(),
                          .errors = {},
                          .curve = {json.at("curve_time"), numbers(json.at("curve"))},
                          .solves = json.at("solves").get<long>(),
@@ -220,6 +224,8 @@ void keep_run(const std::filesystem::path& folder, const StudyRun& run, int repe
                            {"particles", record.particles},
                            {"steps", record.steps},
                            {"evaluations", record.evaluations},
+                           {"nodes", record.nodes},
+                           {"newton_iterations", record.newton_iterations},
                            {"curve_time", record.curve.time},
                            {"curve", record.curve.value},
                            {"solves", record.solves},

@@ -33,6 +33,7 @@ struct RunRecord {
     std::string failure;  // why there are no numbers; empty: it went well
     double wall_seconds = 0, cpu_seconds = 0;
     long particles = 0, steps = 0, evaluations = 0;  // of the right-hand side
+    long nodes = 0, newton_iterations = 0;           // of a solid
     std::vector<RunError> errors;
     // Where runs are compared with each other: the curve, and of coupled runs the solid's part.
     Curve curve;

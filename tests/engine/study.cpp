@@ -241,3 +241,46 @@ TEST_CASE("mistakes in a study are named with their place") {
     Bench no_label(matrix + "error = \"drag\"\n");
     CHECK_THROWS_WITH_AS(no_label.run(no_label.options()), doctest::Contains("drag"), std::invalid_argument);
 }
+
+TEST_CASE("a study of a body without water counts nodes and Newton iterations") {
+    const std::string bar = R"(schema_version = 1
+gravity = [0, 0]
+[time]
+end = 1.0
+[domain]
+min = [0, 0]
+max = [1, 1]
+[solid.box]
+min = [0, 0]
+max = [1, 0.1]
+elements = [4, 1]
+[solid.material]
+density = 1000.0
+youngs_modulus = 1e7
+poissons_ratio = 0.0
+[solid.scheme]
+name = "static"
+[[solid.clamp]]
+set = "left"
+[[solid.traction]]
+surface = "right"
+value = [1000.0, 0]
+[[solid.track]]
+name = "tip"
+point = [1.0, 0.0]
+[[compare]]
+column = "tip_x"
+formula = "1e-4 * t"
+label = "bar"
+)";
+    Bench bench(
+        "schema_version = 1\n[[case]]\nscene = \"patch/scene.toml\"\nresolution_key = \"solid.scheme.step\"\n"
+        "resolutions = [1.0, 0.5]\n",
+        bar);
+    REQUIRE(bench.run(bench.options()) == engine::success);
+    const std::string text = bench.results();
+    CHECK(lines_with(text, "| solid.scheme.step | nodes |") == 1);
+    CHECK(lines_with(text, "Newton iterations | CPU") == 1);
+    CHECK(lines_with(text, "| 0.5 | 23 |") == 1);
+    CHECK(text.find("particles") == std::string::npos);
+}
