@@ -47,7 +47,7 @@ double difference(const Curve& curve, const Curve& reference) {
 
 double speedup_theory(bool parallel, double p, double t, double f) {
     if (!parallel) return p * (t + 1) / (t + p);
-    return f * std::min(p, t);
+    return f * std::min(p, std::max(t, 1.0));
 }
 
 }  // namespace aquagraph::engine

@@ -19,7 +19,8 @@ double growth(const Curve& curve);
 double difference(const Curve& curve, const Curve& reference);
 
 // Speedup by p fluid steps per solid step (thesis (6.7)-(6.9)), t: time of a solid step over that of a fluid step,
-// f: the fraction of the CFL step. CSS: p (t + 1)/(t + p). CPS: f p while t > p, else f t.
+// f: the fraction of the CFL step. CSS: p (t + 1)/(t + p). CPS: f p while t > p, else f t; where t < 1 the thesis's f t
+// would be less than the fluid's own time allows, which hides all of the solid's already at p = 1: then f.
 double speedup_theory(bool parallel, double p, double t, double f);
 
 }  // namespace aquagraph::engine

@@ -152,4 +152,5 @@ TEST_CASE("the theory of the speedup: (6.7) to (6.9)") {
     CHECK(engine::speedup_theory(false, 4, 2, 0.8) == Approx(4 * 3.0 / 6));
     CHECK(engine::speedup_theory(true, 4, 10, 0.8) == Approx(3.2));
     CHECK(engine::speedup_theory(true, 4, 2, 0.8) == Approx(1.6));
+    CHECK(engine::speedup_theory(true, 4, 0.1, 0.8) == Approx(0.8));
 }
