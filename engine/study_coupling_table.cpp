@@ -40,11 +40,14 @@ class CouplingTable {
             text +=
                 " t_FE: a solve; t_SPH: a fluid step, its thread time over the threads. Speedup over the first value "
                 "of "
-                "the axis; theory: (6.7)-(6.9) of the thesis with the ratio t_FE/t_SPH of the row that is divided by.";
+                "the axis; theory: (6.7)-(6.9) of the thesis with the ratio t_FE/t_SPH of the row that is divided by, "
+                "and with its step, which the thesis does not shorten at p = 1; shared: the same where the solve uses "
+                "one "
+                "of the threads that the fluid uses too.";
         text += fmt::format("\n\n| variant | {} | steps |", case_.resolution_key);
-        if (speedup) text += " t_FE [ms] | t_SPH [ms] | speedup | theory |";
+        if (speedup) text += " t_FE [ms] | t_SPH [ms] | speedup | theory | shared |";
         text += " wall [s] | difference | growth | roughness | |\n|---|---|---|";
-        if (speedup) text += "---|---|---|---|";
+        if (speedup) text += "---|---|---|---|---|";
         text += "---|---|---|---|---|\n";
         for (const StudyResult* result : results_) text += row(*result, speedup);
         return text;
@@ -98,10 +101,11 @@ class CouplingTable {
                 return other.place == place && other.base == variant.base;
             });
             const double ratio = base ? solid_step(*base) / fluid_step(*base) : NAN;
-            text += fmt::format(
-                " {} | {} | {} | {} |", number(1e3 * solid_step(result)), number(1e3 * fluid_step(result)),
-                number(base ? wall(*base) / wall(result) : NAN),
-                number(speedup_theory(result.run.parallel, result.run.ratio, ratio, result.run.step_fraction)));
+            const double f = base ? result.run.step_fraction / base->run.step_fraction : NAN;
+            text += fmt::format(" {} | {} | {} | {} | {} |", number(1e3 * solid_step(result)),
+                                number(1e3 * fluid_step(result)), number(base ? wall(*base) / wall(result) : NAN),
+                                number(speedup_theory(result.run.parallel, result.run.ratio, ratio, f)),
+                                number(speedup_on_threads(result.run.parallel, result.run.ratio, ratio, f, threads_)));
         }
         const double away = record && right ? difference(record->curve, right->curve) : NAN;
         const double rough = record && right ? total_variation(record->curve) / total_variation(right->curve) : NAN;

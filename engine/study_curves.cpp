@@ -50,4 +50,10 @@ double speedup_theory(bool parallel, double p, double t, double f) {
     return f * std::min(p, std::max(t, 1.0));
 }
 
+double speedup_on_threads(bool parallel, double p, double t, double f, int n) {
+    if (!parallel) return speedup_theory(parallel, p, t, f);
+    const auto cycle = [&](double steps) { return std::max(t, steps + t / n); };
+    return f * p * cycle(1) / cycle(p);
+}
+
 }  // namespace aquagraph::engine

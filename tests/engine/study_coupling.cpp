@@ -104,21 +104,28 @@ TEST_CASE("runs are compared with their reference, and times with the first valu
     Bench bench(axes);
     const std::string text = bench.run(false);
     INFO(text);
-    // variant, resolution, steps, t_FE, t_SPH, speedup, theory, wall, difference, growth, roughness, verdict
+    // variant, resolution, steps, t_FE, t_SPH, speedup, theory, shared, wall, difference, growth, roughness, verdict
     const auto reference = cells(text, "css, p = 1, alpha = -0.3"), three = cells(text, "css, p = 3, alpha = -0.3"),
                parallel = cells(text, "cps, p = 3, alpha = -0.3");
-    REQUIRE(reference.size() >= 12);
+    REQUIRE(reference.size() >= 13);
     CHECK(reference[5] == "1");  // speedup over itself
     CHECK(reference[6] == "1");
-    CHECK(reference[8] == "0 %");
-    CHECK(reference[10] == "1");
-    CHECK(reference[11] == "stable");
+    CHECK(reference[7] == "1");
+    CHECK(reference[9] == "0 %");
+    CHECK(reference[11] == "1");
+    CHECK(reference[12] == "stable");
     const double t = std::stod(reference[3]) / std::stod(reference[4]), p = 3;
     CHECK(std::stod(three[6]) == Approx(p * (t + 1) / (t + p)).epsilon(0.01));
-    CHECK(std::stod(three[8]) > 0);
-    CHECK(std::stod(three[8]) < 10);
-    CHECK(std::stod(parallel[6]) <= 0.8 * p * 1.01);
-    CHECK(three[11] == "stable");
+    CHECK(three[7] == three[6]);
+    CHECK(std::stod(three[9]) > 0);
+    CHECK(std::stod(three[9]) < 10);
+    // Both CPS runs take 0.8 of the CFL step.
+    const auto alone = cells(text, "cps, p = 1, alpha = -0.3");
+    CHECK(alone[6] == "1");
+    CHECK(alone[7] == "1");
+    const double t_cps = std::stod(alone[3]) / std::stod(alone[4]);
+    CHECK(std::stod(parallel[6]) == Approx(std::min(p, std::max(t_cps, 1.0))).epsilon(0.01));
+    CHECK(three[12] == "stable");
     CHECK(count(text, "| as it is |") == 0);
 }
 
@@ -153,4 +160,14 @@ TEST_CASE("the theory of the speedup: (6.7) to (6.9)") {
     CHECK(engine::speedup_theory(true, 4, 10, 0.8) == Approx(3.2));
     CHECK(engine::speedup_theory(true, 4, 2, 0.8) == Approx(1.6));
     CHECK(engine::speedup_theory(true, 4, 0.1, 0.8) == Approx(0.8));
+    // With a processor for itself, or on threads without number, the solve takes none of the fluid's time.
+    for (const double t : {0.1, 2.0, 10.0}) {
+        CHECK(engine::speedup_on_threads(false, 4, t, 1, 2) == engine::speedup_theory(false, 4, t, 1));
+        CHECK(engine::speedup_on_threads(true, 4, t, 0.8, 1000000) ==
+              Approx(engine::speedup_theory(true, 4, t, 0.8)).epsilon(1e-4));
+        CHECK(engine::speedup_on_threads(true, 1, t, 1, 2) == Approx(1));
+    }
+    // On one thread nothing runs beside anything else: CSS.
+    CHECK(engine::speedup_on_threads(true, 4, 2, 1, 1) == Approx(engine::speedup_theory(false, 4, 2, 1)));
+    CHECK(engine::speedup_on_threads(true, 4, 4, 1, 2) == Approx(4 * 4.0 / 6));
 }
