@@ -188,6 +188,18 @@ TEST_CASE("every load and regulation goes on with the same bits") {
     check_restarts<2>(with(every_cycle(gate), "sound_speed", "walls = \"normal_flux\"\nsound_speed"), seed);
 }
 
+TEST_CASE("cycles that are iterated go on with the same bits") {
+    unsigned seed = 70;
+    for (const char* relaxation : {"quasi_newton", "aitken"})
+        for (const int p : {1, 2}) {
+            CAPTURE(relaxation);
+            CAPTURE(p);
+            const std::string keys = std::string("algorithm = \"iterated\"\nrelaxation = \"") + relaxation +
+                                     "\"\nratio = " + std::to_string(p) + "\n";
+            check_restarts<2>(with(every_cycle(gate), "algorithm = \"cps\"\nratio = 1\n", keys), seed++);
+        }
+}
+
 TEST_CASE("a body whose factorisation lasts goes on with the same bits") {
     // Stiff and started from equilibrium: one factorisation serves many steps, and is in use at the checkpoint.
     check_restarts<2>(with(plate, "end = 0.1", "end = 0.06"), 10, 3);

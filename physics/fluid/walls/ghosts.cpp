@@ -36,6 +36,8 @@ void GhostWalls<D>::rebuild(Particles<D>& particles, double spacing, double reac
         corners = find_corners(panels, grid, facet_, 0.5 * spacing);
         grid.add_corners(corners);
         find_owners(spacing, reach);
+    } else {  // walls that have come back to where they were have taken their corners along in between
+        for (Corner<D>& corner : corners) corner.update(panels);
     }
     collect(particles, spacing, reach);
 
