@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "engine/calculix_solver.hpp"
 #include "engine/solid_options.hpp"
 #include "io/comparison.hpp"
 #include "io/expression.hpp"
@@ -111,6 +112,29 @@ solid::Solver<D> make_solid(const io::Scene& scene) {
 }
 
 template <int D>
+void choose_solver(const io::Scene& scene, Model<D>& model) {
+    if (scene.solid->solver == io::SolidSolver::built_in) return;
+    if (scene.solid->velocity)
+        throw io::scene_error(scene, "solid.velocity", "where CalculiX computes the body, it starts at rest",
+                              "take `velocity` out, or solver = \"calculix\"");
+    for (std::size_t k = 0; k < scene.solid->clamps.size(); ++k)
+        if (!scene.solid->clamps[k].name.empty())
+            throw io::scene_error(scene, fmt::format("solid.clamp[{}].name", k),
+                                  "the force on a clamp is not known where CalculiX computes the body",
+                                  "take the name out, or solver = \"calculix\"");
+    try {
+        model.other_solver = std::make_unique<CalculixSolver<D>>(*model.solid, scene.solid->program);
+    } catch (const std::invalid_argument& error) {
+        throw io::scene_error(scene, "solid.solver", error.what(), "see \"CalculiX\" in benchmarks/solid/README.md");
+    } catch (const solid::SolverError& error) {
+        throw io::scene_error(scene, scene.positions.contains("solid.program") ? "solid.program" : "solid.solver",
+                              error.what(),
+                              "install it (Debian: apt-get install calculix-ccx), or say where it is: program = "
+                              "\"/path/to/ccx\" in [solid]");
+    }
+}
+
+template <int D>
 void make_structure(const io::Scene& scene, Model<D>& model) {
     model.solid = make_solid<D>(scene);
     Structure& structure = model.structure.emplace();
@@ -136,7 +160,7 @@ void static_start(const io::Scene& scene, Model<D>& model) {
     if (scene.solid->static_start) {
         std::vector<double> forces(D * model.solid->mesh().nodes.size(), 0.0);
         if (model.structure) sum_at(model.structure->loads, 0, forces);
-        model.solid->solve_static(forces, tasks::parallel_loop);
+        solver_of(model).solve_static(forces, tasks::parallel_loop);
     }
     if (scene.solid->velocity) model.solid->set_velocity(scene.solid->velocity->as<D>());
     if (model.structure && scene.solid->scheme == solid::Scheme::central_difference)
@@ -148,8 +172,9 @@ std::vector<tasks::Task> structural_step(Model<D>& model) {
     Structure& structure = *model.structure;
     std::vector<tasks::Task> listing{tasks::structural_time_step(model.clock, structure.step),
                                      tasks::dead_loads(structure.loads, model.clock, structure.forces)};
-    listing.push_back(structure.is_static ? tasks::structural_equilibrium(*model.solid, structure.forces, model.clock)
-                                          : tasks::structural_step(*model.solid, structure.forces, model.clock));
+    solid::Structure<D>& solver = solver_of(model);
+    listing.push_back(structure.is_static ? tasks::structural_equilibrium(solver, structure.forces, model.clock)
+                                          : tasks::structural_step(solver, structure.forces, model.clock));
     listing.push_back(tasks::advance_clock(model.clock, "step"));
     return listing;
 }
@@ -171,6 +196,7 @@ std::size_t nearest_node(const solid::Mesh<D>& mesh, const io::Point& point) {
 
 #define AQUAGRAPH_INSTANTIATE(D)                                  \
     template solid::Solver<D> make_solid(const io::Scene&);       \
+    template void choose_solver(const io::Scene&, Model<D>&);     \
     template void make_structure(const io::Scene&, Model<D>&);    \
     template void static_start(const io::Scene&, Model<D>&);      \
     template std::vector<tasks::Task> structural_step(Model<D>&); \

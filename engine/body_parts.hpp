@@ -9,6 +9,11 @@ namespace aquagraph::engine {
 template <int D>
 solid::Solver<D> make_solid(const io::Scene& scene);
 
+// The solver that the scene chooses for the body, if it is not the built-in one. Throws io::SceneError where it cannot
+// be started or does not know what the scene asks for.
+template <int D>
+void choose_solver(const io::Scene& scene, Model<D>& model);
+
 // A body alone: solver, loads and step of the scene into the model, which has no fluid.
 template <int D>
 void make_structure(const io::Scene& scene, Model<D>& model);

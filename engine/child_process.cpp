@@ -22,7 +22,8 @@ double seconds(const timeval& t) {
 }  // namespace
 
 ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                   const std::filesystem::path& said, double time_limit, const std::function<bool()>& stop) {
+                   const std::filesystem::path& said, double time_limit, const std::function<bool()>& stop,
+                   const ChildPlace& place) {
     std::vector<std::string> words{program.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
@@ -33,8 +34,13 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    if (!place.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, place.folder.c_str());
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    if (place.own_group) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t child = -1;
-    const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
+    const int error = posix_spawnp(&child, program.c_str(), &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start " + program.string());
 

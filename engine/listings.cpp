@@ -154,21 +154,21 @@ class Listing {
     void solve(tasks::LoadsOf loads_read) requires(D == 2) {
         group("exchange");
         loads();
-        add(tasks::newton_solve(*model_.solid, *model_.interface, model_.clock, loads_read));
+        add(tasks::newton_solve(solver_of(model_), *model_.interface, model_.clock, loads_read));
     }
 
     void exchange(tasks::LoadsOf loads_read) requires(D == 2) {
         coupling::Interface& interface = *model_.interface;
         group("exchange");
         if (interface.keeps_energy)
-            add(tasks::interface_energy(*model_.solid, interface, body_work(model_)->ledger.sum.walls, loads_read));
-        add(tasks::exchange(*model_.solid, interface, model_.clock));
+            add(tasks::interface_energy(solver_of(model_), interface, body_work(model_)->ledger.sum.walls, loads_read));
+        add(tasks::exchange(solver_of(model_), interface, model_.clock));
         if (interface.ratio.regulated) add(tasks::regulate_ratio(interface));
     }
 
     tasks::IteratedParts iterated_parts() requires(D == 2) {
-        return {*model_.fluid, *model_.walls,     moving(),    model_.wall_works,
-                *model_.solid, *model_.interface, model_.clock};
+        return {*model_.fluid,     *model_.walls,     moving(),    model_.wall_works,
+                solver_of(model_), *model_.interface, model_.clock};
     }
 
     std::vector<Task> take() { return std::move(tasks_); }

@@ -79,6 +79,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     model->clock.end = scene.end_time;
     if (!scene.fluid) {
         make_structure(scene, *model);
+        choose_solver(scene, *model);
         return model;
     }
     model->fluid = make_fluid<D>(scene);
@@ -104,6 +105,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
     if constexpr (D == 2) {
         if (scene.solid) {
             model->solid = make_solid<2>(scene);
+            choose_solver(scene, *model);
             model->interface = make_interface(scene, *model);
             model->cycle_step.rule = scene.coupling.step_rule;
             model->cycle_step.fraction = scene.coupling.step_fraction;

@@ -43,6 +43,8 @@ struct Model {
     // across the interface.
     std::vector<fluid::WallWork<D>> wall_works;
     std::optional<solid::Solver<D>> solid;
+    // Computes the body instead of `solid`, which then has the state that it has come to.
+    std::unique_ptr<solid::Structure<D>> other_solver;
     std::optional<Structure> structure;  // where there is no fluid
     std::optional<coupling::Interface> interface;
     coupling::CycleStep cycle_step;
@@ -58,6 +60,13 @@ const fluid::Panels<D>& panels_of(const Model<D>& model) {
 template <int D>
 fluid::Panels<D>& panels_of(Model<D>& model) {
     return model.flux_walls ? model.flux_walls->panels : model.walls->panels;
+}
+
+// Whoever computes the body; there must be one.
+template <int D>
+solid::Structure<D>& solver_of(Model<D>& model) {
+    if (model.other_solver) return *model.other_solver;
+    return *model.solid;
 }
 
 // What the body does to the fluid; null where energies across the interface are not kept.

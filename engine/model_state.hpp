@@ -34,9 +34,9 @@ void archive(Archive& fields, Model<D>& model) {
     if (model.solid) {
         fields.section("solid");
         solid::State state;
-        if (!fields.reads()) model.solid->save(state);
+        if (!fields.reads()) solver_of(model).save(state);
         fields(state);
-        if (fields.reads()) model.solid->restore(state);
+        if (fields.reads()) solver_of(model).restore(state);
     }
     if (model.structure) {
         fields.section("structure");

@@ -153,7 +153,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
         } catch (...) {
             message = fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps);
         }
-    } catch (const solid::ConvergenceError& error) {
+    } catch (const solid::SolverError& error) {
         outcome = io::RunOutcome::failed;
         message = error.what();
     } catch (const std::system_error& error) {

@@ -115,7 +115,8 @@ void start_solid(Model<2>& model, const io::Scene& scene) {
     // The water's load on the solid at t = 0, which the first solve of CPS reads.
     fluid::Fluid<2>& fluid = *model.fluid;
     coupling::Interface& interface = *model.interface;
-    interface.surface.take(model.solid->positions(), model.solid->velocities());
+    const solid::Structure<2>& solver = solver_of(model);
+    interface.surface.take(solver.positions(), solver.velocities());
     interface.surface.place(panels_of(model), 0);
     if (model.flux_walls) {
         rebuild_lists(fluid, *model.flux_walls, tasks::parallel_loop);
@@ -128,8 +129,8 @@ void start_solid(Model<2>& model, const io::Scene& scene) {
     interface.solid_loads = interface.fluid_loads;
     interface.ratio.begin(interface.force);
     if (interface.keeps_energy) {
-        const solid::Energies energies = model.solid->energies();
-        interface.energy.begin(model.solid->displacements());
+        const solid::Energies energies = solver.energies();
+        interface.energy.begin(solver.displacements());
         interface.energy.solid_at_start = energies.stored();
     }
 }

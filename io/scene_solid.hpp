@@ -109,8 +109,12 @@ struct CordsScene {
     std::optional<Point> along, normal;     // … or flat
 };
 
+enum class SolidSolver { built_in, calculix };
+
 struct SolidScene {
     std::string name = "solid";
+    SolidSolver solver = SolidSolver::built_in;
+    std::string program = "ccx";    // of calculix (absolute once read, where it has a slash)
     std::optional<Box> box;         // either a box, meshed with so many elements along x, y (and z) …
     std::array<int, 3> elements{};  //
     std::filesystem::path mesh;     // … or a file, .msh or .inp (absolute once read)

@@ -101,6 +101,10 @@ void put_conditions(Json& json, const SolidScene& solid, int dimension) {
 nlohmann::json to_json(const SolidScene& solid, int dimension) {
     Json json = {{"name", solid.name}, {"static_start", solid.static_start}, {"wet", solid.wet}};
     if (solid.velocity) json["velocity"] = *solid.velocity;
+    if (solid.solver != SolidSolver::built_in) {
+        json["solver"] = word(solid_solver_words, solid.solver);
+        json["program"] = solid.program;
+    }
     if (dimension == 2) json["plane"] = word(plane_words, solid.plane);
     if (solid.box) {
         json["box"] = {{"min", solid.box->min}, {"max", solid.box->max}};

@@ -55,6 +55,12 @@ constexpr auto sections = std::to_array<SceneSection>({
 using K = KeyKind;
 constexpr auto body_keys = std::to_array<SceneKey>({
     {"solid", "name", K::text, false, "", any, "", "solid", "letters, digits and _, beginning with a letter"},
+    {"solid", "solver", K::choice, false, "", any, "built_in calculix", "built_in",
+     "who computes the body: this program, or CalculiX, started once per step (slow; quadratic quadrilaterals in plane "
+     "strain and hexahedra, "
+     "integration = full)"},
+    {"solid", "program", K::text, false, "", any, "", "ccx",
+     "CalculiX; looked for in PATH, with a slash seen from the scene's folder"},
     {"solid", "mesh", K::text, false, "", any, "", "none",
      "Gmsh file (.msh, 4.1 or 2.2, ASCII) or CalculiX or Abaqus deck (.inp), seen from the scene's folder; either this "
      "or "

@@ -18,6 +18,9 @@ class SolidReader {
 
     void everything() {
         document_.take("solid.name", solid_.name);
+        choose("solid.solver", solid_.solver, solid_solver_words);
+        if (document_.take("solid.program", solid_.program) && solid_.program.find('/') != std::string::npos)
+            solid_.program = (scene_.file.parent_path() / solid_.program).lexically_normal().string();
         path("solid.mesh", solid_.mesh);
         if (document_.count("solid.box")) box();
         choose("solid.plane", solid_.plane, plane_words);

@@ -59,6 +59,9 @@ class SolidValidation {
     bool given(const std::string& key) const { return complaints_.positions.contains(key); }
 
     void body() {
+        if (given("solid.program") && solid_.solver == SolidSolver::built_in && !complaints_.touch("solid.solver"))
+            complaints_.add("solid.program", "no other program computes this body",
+                            "take it out, or choose solver = \"calculix\"");
         const bool box = given("solid.box"), mesh = given("solid.mesh");
         if (box && mesh)
             complaints_.add("solid.mesh", "[solid] has both `mesh` and [solid.box]",

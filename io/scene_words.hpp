@@ -57,6 +57,8 @@ inline constexpr Words<solid::Integration, 2> integration_points_words{
     {{"reduced", solid::Integration::reduced}, {"full", solid::Integration::full}}};
 inline constexpr Words<solid::PlaneCondition, 2> plane_words{
     {{"strain", solid::PlaneCondition::strain}, {"stress", solid::PlaneCondition::stress}}};
+inline constexpr Words<SolidSolver, 2> solid_solver_words{
+    {{"built_in", SolidSolver::built_in}, {"calculix", SolidSolver::calculix}}};
 inline constexpr Words<solid::Scheme, 3> solid_scheme_words{
     {{"hht", solid::Scheme::hht},
      {"newmark", solid::Scheme::newmark},

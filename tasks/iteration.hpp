@@ -7,7 +7,7 @@
 #include "physics/fluid/snapshot.hpp"
 #include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/wall_forces.hpp"
-#include "physics/solid/solver.hpp"
+#include "physics/solid/structure.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
@@ -26,7 +26,7 @@ struct IteratedParts {
     fluid::GhostWalls<2>& walls;
     const fluid::MovingWalls<2>* moving;  // null: none
     std::vector<fluid::WallWork<2>>& works;
-    solid::Solver<2>& solid;
+    solid::Structure<2>& solid;
     coupling::Interface& interface;
     Clock& clock;
 };

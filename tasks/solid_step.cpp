@@ -7,7 +7,7 @@
 
 namespace aquagraph::tasks {
 
-Task newton_solve(solid::Solver<2>& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads) {
+Task newton_solve(solid::Structure<2>& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads) {
     const bool parallel = loads == LoadsOf::last_exchange;
     const std::vector<double>& nodal = parallel ? interface.solid_loads : interface.fluid_loads;
     return {.name = "FE Newton solve",
@@ -88,7 +88,7 @@ Task averaged_loads(const fluid::Fluid<2>& fluid, const fluid::Panels<2>& panels
             }};
 }
 
-Task interface_energy(const solid::Solver<2>& solid, coupling::Interface& interface, const double& work_on_fluid,
+Task interface_energy(const solid::Structure<2>& solid, coupling::Interface& interface, const double& work_on_fluid,
                       LoadsOf loads) {
     const bool parallel = loads == LoadsOf::last_exchange;
     const std::vector<double>& nodal = parallel ? interface.solid_loads : interface.fluid_loads;
@@ -106,7 +106,7 @@ Task interface_energy(const solid::Solver<2>& solid, coupling::Interface& interf
             }};
 }
 
-Task exchange(const solid::Solver<2>& solid, coupling::Interface& interface, Clock& clock) {
+Task exchange(const solid::Structure<2>& solid, coupling::Interface& interface, Clock& clock) {
     return {.name = "exchange",
             .reads = {resource::solid_state, resource::interface_loads, resource::interface_energy},
             .writes = {resource::interface_motion, resource::solid_loads, resource::clock_step},

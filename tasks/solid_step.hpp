@@ -5,7 +5,7 @@
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
-#include "physics/solid/solver.hpp"
+#include "physics/solid/structure.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
@@ -15,7 +15,7 @@ namespace aquagraph::tasks {
 enum class LoadsOf { last_exchange, this_cycle };
 
 // Advances the solid over the cycle: one step of clock.cycle.
-Task newton_solve(solid::Solver<2>& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads);
+Task newton_solve(solid::Structure<2>& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads);
 
 // Gradients of the particles that the load reads, at the end of the fluid's steps.
 Task interface_gradients(fluid::Fluid<2>& fluid, const coupling::Interface& interface);
@@ -28,10 +28,10 @@ Task interface_loads(fluid::Fluid<2>& fluid, const fluid::NormalFluxWalls<2>& wa
 Task averaged_loads(const fluid::Fluid<2>& fluid, const fluid::Panels<2>& panels, coupling::Interface& interface);
 // Books what the cycle has moved across the interface, after the solve and before the exchange: work_on_fluid is what
 // the body has given to the fluid since the start [J/m], `loads` which ones the solve has read. Corrects ε.
-Task interface_energy(const solid::Solver<2>& solid, coupling::Interface& interface, const double& work_on_fluid,
+Task interface_energy(const solid::Structure<2>& solid, coupling::Interface& interface, const double& work_on_fluid,
                       LoadsOf loads);
 // Hands loads to the solid and wet nodes to the fluid, and starts a new cycle.
-Task exchange(const solid::Solver<2>& solid, coupling::Interface& interface, Clock& clock);
+Task exchange(const solid::Structure<2>& solid, coupling::Interface& interface, Clock& clock);
 // Chooses p of the next cycle.
 Task regulate_ratio(coupling::Interface& interface);
 

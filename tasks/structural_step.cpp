@@ -26,7 +26,7 @@ Task dead_loads(const std::vector<solid::DeadLoad>& loads, const Clock& clock, s
 }
 
 template <int D>
-Task structural_step(solid::Solver<D>& solid, const std::vector<double>& forces, const Clock& clock) {
+Task structural_step(solid::Structure<D>& solid, const std::vector<double>& forces, const Clock& clock) {
     return {.name = "FE Newton solve",
             .reads = {resource::clock, resource::solid_loads},
             .writes = {resource::solid_state},
@@ -37,7 +37,7 @@ Task structural_step(solid::Solver<D>& solid, const std::vector<double>& forces,
 }
 
 template <int D>
-Task structural_equilibrium(solid::Solver<D>& solid, const std::vector<double>& forces, const Clock& clock) {
+Task structural_equilibrium(solid::Structure<D>& solid, const std::vector<double>& forces, const Clock& clock) {
     return {.name = "FE equilibrium",
             .reads = {resource::clock, resource::solid_loads},
             .writes = {resource::solid_state},
@@ -48,9 +48,9 @@ Task structural_equilibrium(solid::Solver<D>& solid, const std::vector<double>& 
             }};
 }
 
-template Task structural_step(solid::Solver<2>&, const std::vector<double>&, const Clock&);
-template Task structural_step(solid::Solver<3>&, const std::vector<double>&, const Clock&);
-template Task structural_equilibrium(solid::Solver<2>&, const std::vector<double>&, const Clock&);
-template Task structural_equilibrium(solid::Solver<3>&, const std::vector<double>&, const Clock&);
+template Task structural_step(solid::Structure<2>&, const std::vector<double>&, const Clock&);
+template Task structural_step(solid::Structure<3>&, const std::vector<double>&, const Clock&);
+template Task structural_equilibrium(solid::Structure<2>&, const std::vector<double>&, const Clock&);
+template Task structural_equilibrium(solid::Structure<3>&, const std::vector<double>&, const Clock&);
 
 }  // namespace aquagraph::tasks

@@ -2,7 +2,7 @@
 #pragma once
 #include "physics/clock.hpp"
 #include "physics/solid/dead_loads.hpp"
-#include "physics/solid/solver.hpp"
+#include "physics/solid/structure.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
@@ -16,9 +16,9 @@ Task dead_loads(const std::vector<solid::DeadLoad>& loads, const Clock& clock, s
 
 // One step of clock.step under these forces, D × nodes …
 template <int D>
-Task structural_step(solid::Solver<D>& solid, const std::vector<double>& forces, const Clock& clock);
+Task structural_step(solid::Structure<D>& solid, const std::vector<double>& forces, const Clock& clock);
 // … or the equilibrium under them, and under what is prescribed for the end of the step.
 template <int D>
-Task structural_equilibrium(solid::Solver<D>& solid, const std::vector<double>& forces, const Clock& clock);
+Task structural_equilibrium(solid::Structure<D>& solid, const std::vector<double>& forces, const Clock& clock);
 
 }  // namespace aquagraph::tasks

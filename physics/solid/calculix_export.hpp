@@ -7,6 +7,7 @@
 // are not the same. *DYNAMIC, ALPHA is the scheme of Hilber, Hughes and Taylor.
 #pragma once
 #include <ostream>
+#include <span>
 #include <string>
 
 #include "physics/solid/dead_loads.hpp"
@@ -18,12 +19,23 @@ namespace aquagraph::solid {
 // How the body is taken through time and what is printed.
 struct CalculixRun {
     std::string title;
-    bool is_static = false;     // *STATIC, otherwise *DYNAMIC from rest …
-    bool static_start = false;  // … after an equilibrium under gravity and the loads at t = 0
-    double step = 0, end = 0;   // [s]
+    bool is_static = false;       // *STATIC, otherwise *DYNAMIC from rest …
+    bool static_start = false;    // … after an equilibrium under gravity and the loads at t = 0 …
+    bool unloaded_start = false;  // … or gravity alone
+    double step = 0, end = 0;     // [s]
     std::vector<DeadLoad> loads;
     std::vector<NodeIndex> printed;  // nodes whose displacements go into the .dat file; none: all
     int print_every = 1;             // steps
+};
+
+// One step of a body that ccx takes from one restart file to the next. At its start ccx finds the accelerations anew,
+//     (M + β (Δt/10)² (1 + α) K) a_n = F_ext,n - F_int(u_n),
+// since its restart files do not have them. With α = 0 these are, but for the small stiffness, those that the step
+// before has ended with; with α < 0 they are not, and the scheme is another one of the same order.
+struct CalculixStep {
+    double size = 0;                                // [s]
+    bool first = false;                             // the loads were the same at its start
+    std::span<const double> forces, forces_before;  // at its end and at its start, D × nodes; before: may be empty
 };
 
 // Node and element numbers count from 1. Throws std::invalid_argument for what ccx has no equal for: a measured curve,
@@ -31,5 +43,14 @@ struct CalculixRun {
 // prescribed motions, rigid bodies, pressures, contacts, damping.
 template <int D>
 void write_calculix(std::ostream& deck, const Mesh<D>& mesh, const Options<D>& options, const CalculixRun& run);
+
+// The body, in two dimensions as a slab (its nodes at z = 0 have the numbers of the plane's), and its equilibrium under
+// these forces (D × nodes; may be empty) and its weight, if that counts. std::invalid_argument also for plane stress.
+template <int D>
+void write_calculix_start(std::ostream& deck, const Mesh<D>& mesh, const Options<D>& options,
+                          std::span<const double> forces, bool under_gravity);
+// What follows on a start or another step.
+template <int D>
+void write_calculix_step(std::ostream& deck, const Mesh<D>& mesh, const Options<D>& options, const CalculixStep& step);
 
 }  // namespace aquagraph::solid

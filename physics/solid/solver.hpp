@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,73 +22,9 @@
 #include "physics/solid/contact_report.hpp"
 #include "physics/solid/mesh.hpp"
 #include "physics/solid/options.hpp"
+#include "physics/solid/structure.hpp"
 
 namespace aquagraph::solid {
-
-// Newton did not converge, or the stiffness is not positive definite. The solver has gone back to the last accepted
-// state.
-class ConvergenceError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
-
-struct Energies {                  // [J]
-    double kinetic = 0;            // 1/2 v·M v
-    double strain = 0;             // ∫ W dV, over the reference configuration
-    double gravity_potential = 0;  // -F_gravity·u, zero in the reference configuration
-    double contact = 0;            // stored in the penalties
-    // Since the start or the last solve_static, trapezoidal in time:
-    double external_work = 0;  // of the loads without gravity, of what moves nodes as prescribed, of moving ground
-    double friction = 0;       // dissipated
-    double damping = 0;        // dissipated by Rayleigh's damping
-    double numerical = 0;      // dissipated by the scheme
-    double stored() const { return kinetic + strain + gravity_potential + contact; }
-    // stored() + friction + damping + numerical - external_work is constant, to the third order of a step.
-};
-
-struct Statistics {
-    long steps = 0;                // calls of advance
-    long newton_iterations = 0;    // linear solves, all steps and static solves together
-    long factorisations = 0;       // numeric Cholesky factorisations
-    long matrices = 0;             // assemblies of a system matrix
-    long gradient_iterations = 0;  // of conjugate gradients, all together
-    int last_iterations = 0;       // of the last step
-    double last_residual = 0;      // |r| / reference at the end of the last step
-
-    template <class Archive>
-    void archive(Archive& fields) {  // for a checkpoint
-        fields(steps, newton_iterations, factorisations, matrices, gradient_iterations, last_iterations, last_residual);
-    }
-};
-
-// Everything that the next step depends on, to write to a checkpoint.
-struct State {
-    double time = 0;                                               // [s]
-    std::vector<double> displacements, velocities, accelerations;  // D × nodes
-    std::vector<double> external_forces, internal_forces;          // at the end of the last step
-    std::vector<double> damping_forces;                            // empty without damping
-    std::vector<double> rigid_bodies;  // of each: coordinates, velocities, accelerations, rotation matrix by rows
-    bool accelerations_known = false;
-    double external_work = 0, numerical_dissipation = 0, damping_dissipation = 0;
-    std::vector<double> contacts;  // of each: shift, tractions, positions (ContactHistory), dissipation, ground's work
-    Statistics statistics;
-    // The factorisation in use (or the matrix, for conjugate gradients), by where it was made and how it has done
-    // since: that decides when it is renewed.
-    bool factor_valid = false, by_gradients = false;
-    double factor_time_step = 0;  // [s]
-    int factor_steps = 0, factor_iterations_when_new = 0, factor_excess = 0;
-    std::vector<double> factor_displacements, factor_rigid_bodies, factor_contacts;
-    double factor_time = 0;  // [s], of the loads
-
-    template <class Archive>
-    void archive(Archive& fields) {  // for a checkpoint
-        fields(time, displacements, velocities, accelerations, external_forces, internal_forces, rigid_bodies, contacts,
-               accelerations_known, external_work, numerical_dissipation, statistics);
-        fields(damping_forces, damping_dissipation);
-        fields(factor_valid, by_gradients, factor_time_step, factor_steps, factor_iterations_when_new, factor_excess,
-               factor_displacements, factor_rigid_bodies, factor_contacts, factor_time);
-    }
-};
 
 // A natural vibration about the present state.
 struct NaturalMode {
@@ -107,25 +42,25 @@ struct RigidBodyState {
 };
 
 template <int D>
-class Solver {
+class Solver final : public Structure<D> {
   public:
     // Throws std::invalid_argument for an option out of range, a clamp of an unknown set (naming those that exist), a
     // neo-Hookean law in plane stress, and MeshError for a mesh that check() refuses.
     Solver(Mesh<D> mesh, const Options<D>& options);
-    ~Solver();
+    ~Solver() override;
     Solver(Solver&&) noexcept;
     Solver& operator=(Solver&&) noexcept;
 
     // Static equilibrium under gravity and these loads (D × nodes), reached from the present displacements by load
     // increments that are halved where Newton fails. Velocities and accelerations become zero, external_work restarts
     // at zero. Throws ConvergenceError, leaving the solver as it was.
-    void solve_static(std::span<const double> external_forces, BlockLoop loop);
+    void solve_static(std::span<const double> external_forces, BlockLoop loop) override;
 
     // One step of size dt > 0 [s]; external_forces (D × nodes) act at its end. Those at its start are the ones of the
     // step before; the first step takes its loads as constant, and its initial acceleration from M a = F_ext - F_int.
     // Throws ConvergenceError, leaving the solver as it was, and std::invalid_argument for sizes or dt out of range.
     // Bitwise the same for any loop. Allocates nothing, unless it factorises.
-    void advance(double dt, std::span<const double> external_forces, BlockLoop loop);
+    void advance(double dt, std::span<const double> external_forces, BlockLoop loop) override;
 
     // The lowest natural frequencies, ascending, and shapes about the present displacements, with the stiffness of
     // large displacements there: prestress counts. What is prescribed and the nodes of rigid bodies stay where they
@@ -139,14 +74,14 @@ class Solver {
     // Time of the laws of motions and loads [s]; 0 at first, advance() adds its step. A static solve takes them as they
     // are at this time.
     double time() const;
-    void set_time(double time);
+    void set_time(double time) override;
 
-    const Mesh<D>& mesh() const;
+    const Mesh<D>& mesh() const override;
     const Options<D>& options() const;
-    std::span<const double> positions() const;      // X + u [m]
-    std::span<const double> displacements() const;  // u [m]
-    std::span<const double> velocities() const;     // [m/s]
-    std::span<const double> accelerations() const;  // [m/s²]
+    std::span<const double> positions() const override;      // X + u [m]
+    std::span<const double> displacements() const override;  // u [m]
+    std::span<const double> velocities() const override;     // [m/s]
+    std::span<const double> accelerations() const;           // [m/s²]
 
     // Sum of the forces that hold the nodes of a set, where they are clamped or moved as prescribed [N]: M a + F_int -
     // F_ext at the present state. Throws std::invalid_argument for an unknown set.
@@ -158,12 +93,12 @@ class Solver {
     // one per node.
     void contact_pressure(std::span<double> nodal) const;
 
-    Energies energies() const;  // computed when asked for
-    Statistics statistics() const;
+    Energies energies() const override;  // computed when asked for
+    Statistics statistics() const override;
     double mass() const;  // [kg]
     // Infinite for the implicit schemes, which are unconditionally stable. Explicit: 0.9 × 2/ω_max about the state
     // where it was first asked for, or a static solve's end [s].
-    double largest_stable_step() const;
+    double largest_stable_step() const override;
 
     // Von Mises equivalent of the Cauchy stress, mean of an element's Gauss points [Pa]. von_mises: one per element.
     void element_stress(std::span<double> von_mises) const;
@@ -171,8 +106,8 @@ class Solver {
     // What save() writes, restore() of a solver built from the same mesh and options reads; both continue with the same
     // bits, and so does a solver that is never saved: restore() makes the saved factorisation again, where it was made,
     // unless it is the one in use.
-    void save(State& state) const;
-    void restore(const State& state);  // throws std::invalid_argument for sizes that do not fit
+    void save(State& state) const override;
+    void restore(const State& state) override;  // throws std::invalid_argument for sizes that do not fit
 
   private:
     struct Implementation;
