@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "tests/engine/results_of_run.hpp"
+#include "tests/engine/session.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;
@@ -51,9 +51,50 @@ TEST_CASE("every load opens the gate, and each keeps its own energy promise") {
     INFO("interface over given energy: averaged ", interface["averaged_pressure"] / given["averaged_pressure"],
          ", force ", interface["force_conservative"] / given["force_conservative"], ", energy ",
          interface["energy_conservative"] / given["energy_conservative"]);
-    // Particles as coarse as these need more than 15 %: ε stands at its limit.
-    CHECK(interface["energy_conservative"] < 0.5 * interface["force_conservative"]);
-    CHECK(interface["energy_conservative"] < 0.5 * interface["averaged_pressure"]);
+    CHECK(interface["energy_conservative"] < interface["force_conservative"]);
+    CHECK(interface["force_conservative"] < interface["averaged_pressure"]);
+}
+
+TEST_CASE("what the energy conservative load leaves is what the bound of ε keeps it from") {
+    // Particles as coarse as these would need more than 15 % at times: ε then stands at its limit.
+    struct Outcome {
+        double left, largest_epsilon, at_bound;  // at_bound: share of the cycles
+    };
+    const auto run = [](const char* load, double limit, const char* spacing = "0.005") {
+        const ScratchFolder folder;
+        Session<2> session(folder.write("scene.toml", with(with_keys(std::string("load = \"") + load + "\"\n",
+                                                                     "energy_ledger = true\n"),
+                                                           "spacing = 0.005", std::string("spacing = ") + spacing)),
+                           folder / "results", 2);
+        session.model->interface->correction.limit = limit;
+        Outcome outcome{};
+        const auto& interface = *session.model->interface;
+        while (session.model->clock.time < session.model->clock.end * (1 - 1e-12)) {
+            session.run(1);
+            const double epsilon = std::fabs(interface.correction.epsilon);
+            outcome.largest_epsilon = std::max(outcome.largest_epsilon, epsilon);
+            outcome.at_bound += epsilon == limit;
+        }
+        outcome.at_bound /= double(session.cycles);
+        outcome.left = std::fabs(interface.energy.of_interface());
+        return outcome;
+    };
+    const Outcome force = run("force_conservative", 0.15), bounded = run("energy_conservative", 0.15),
+                  free = run("energy_conservative", 0.9);
+    INFO("left ", force.left, ", ", bounded.left, ", ", free.left, " J/m; largest ε ", bounded.largest_epsilon, ", ",
+         free.largest_epsilon);
+    CHECK(bounded.largest_epsilon == 0.15);
+    CHECK(free.largest_epsilon > 0.15);
+    CHECK(bounded.left < 0.3 * force.left);
+    CHECK(free.left < 0.5 * bounded.left);
+    // Finer water needs less, and ε is inside its bound in three quarters of the cycles.
+    const Outcome fine_force = run("force_conservative", 0.15, "0.0025"),
+                  fine = run("energy_conservative", 0.15, "0.0025");
+    INFO("finer: left ", fine_force.left, ", ", fine.left, " J/m; cycles at the bound ", bounded.at_bound, ", ",
+         fine.at_bound);
+    CHECK(fine.at_bound < 0.3);
+    CHECK(fine.at_bound < bounded.at_bound);
+    CHECK(fine.left < 0.2 * fine_force.left);
 }
 
 TEST_CASE("an elastic wedge enters water: what each load makes of energy at the interface") {
