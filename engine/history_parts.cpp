@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "engine/field_columns.hpp"
@@ -16,6 +17,22 @@ HistoryPart interface_force(const io::Scene& scene, const coupling::Interface& i
             [&interface](std::vector<double>& row) {
                 row.insert(row.end(), {interface.force[0], interface.force[1]});
             }};
+}
+
+// What the fluid has computed for the end of the cycle.
+HistoryPart interface_loads(const io::Scene& scene, const Model<2>& model) {
+    std::set<int> nodes;
+    for (const std::string& surface : scene.solid->wet)
+        for (const solid::Facet& edge : model.solid->mesh().surface(surface)) nodes.insert(edge.begin(), edge.end());
+    HistoryPart part;
+    for (const int node : nodes)
+        for (const char* direction : {"x", "y"})
+            part.columns.push_back({"load_" + std::to_string(node + 1) + "_" + direction, "N/m"});
+    part.append = [&loads = model.interface->fluid_loads, nodes](std::vector<double>& row) {
+        for (const int node : nodes)
+            for (std::size_t d = 0; d < 2; ++d) row.push_back(loads[2 * std::size_t(node) + d]);
+    };
+    return part;
 }
 
 // Kinetic and potential, of a central force too.
@@ -152,6 +169,8 @@ std::vector<HistoryPart> history_parts(const io::Scene& scene, const Model<D>& m
                             {double(interface->fixed_point.iterations()), interface->fixed_point.residual()});
              }});
     if (interface && interface->ratio.regulated) parts.push_back(ratio(interface->ratio));
+    if constexpr (D == 2)
+        if (scene.output.interface_loads) parts.push_back(interface_loads(scene, model));
     if (model.fluid) parts.push_back(particle_figures(*model.fluid));
     if (model.fluid && !FieldColumns(scene).columns().empty()) parts.push_back(fields(scene, model));
     return parts;

@@ -56,11 +56,13 @@ int main(int argc, char** argv) {
     modes->add_option("--out", modes_options.folder, "Folder of results (default: results/<scene name>)");
     modes->add_option("--threads", modes_options.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
 
-    std::filesystem::path deck_file;
+    std::filesystem::path deck_file, loads_file;
     auto* deck = app.add_subcommand("export-ccx", "Write a scene's body as an input deck of CalculiX");
     deck->add_option("scene", scene_file, "Scene file (TOML)")->required();
     deck->add_option("--set", overrides, set_help)->take_all()->allow_extra_args(false);
     deck->add_option("--out", deck_file, "File (default: <scene name>.inp)");
+    deck->add_option("--loads", loads_file,
+                     "history.csv of a run with [output] interface_loads = true: the water's loads once more");
 
     std::filesystem::path trace_file;
     auto* trace = app.add_subcommand("trace-summary", "Say how well fluid and solid overlap in a trace of a run");
@@ -104,7 +106,7 @@ int main(int argc, char** argv) {
         if (modes->parsed()) return engine::modes(scene, modes_options, std::cout, std::cerr);
         if (deck->parsed()) {
             engine::export_calculix(scene, deck_file.empty() ? std::filesystem::path(scene.name + ".inp") : deck_file,
-                                    std::cout);
+                                    loads_file, std::cout);
             return engine::success;
         }
         if (graph->parsed()) {

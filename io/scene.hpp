@@ -122,6 +122,7 @@ struct OutputScene {
     double frame_interval = 0;        // [s]
     double history_interval = 0;      // [s]; 0: every coupling cycle
     double checkpoint_interval = 10;  // [min] of wall-clock time; 0: only when the run is asked to stop
+    bool interface_loads = false;     // of every wet node, into history.csv, every coupling cycle
     bool energy_ledger = false;       // where the fluid's energy goes, and whether the balance closes
 };
 

@@ -221,6 +221,7 @@ nlohmann::json to_json(const Scene& scene) {
                   {{"frame_interval", scene.output.frame_interval},
                    {"history_interval", scene.output.history_interval},
                    {"checkpoint_interval", scene.output.checkpoint_interval},
+                   {"interface_loads", scene.output.interface_loads},
                    {"energy_ledger", scene.output.energy_ledger}}}};
     json["domain"]["edge"] = scene.edge == DomainEdge::closed ? "closed" : "open";
     json["domain"]["periodic"] = scene.periodic;

@@ -137,6 +137,9 @@ constexpr auto keys = std::to_array<SceneKey>({
      "",
      "10",
      "of wall-clock time between checkpoints (README.md); 0: only when the run is asked to stop"},
+    {"output", "interface_loads", K::boolean, false, "", any, "", "false",
+     "columns load_N_x[N/m] and load_N_y[N/m] of every wet node N (counted from 1): what the water does to the body, "
+     "each coupling cycle; another solver can be given them (export-ccx --loads)"},
     {"output", "energy_ledger", K::boolean, false, "", any, "", "false",
      "columns of the fluid's compression, dissipated and viscous energy, of the walls' work and of what is missing in "
      "the balance, with a solid also of what crosses the interface and of its own ledger; costs about a flux pass per "

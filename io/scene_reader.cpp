@@ -59,6 +59,7 @@ class Filler {
         document_.take("output.history_interval", scene_.output.history_interval);
         document_.take("output.checkpoint_interval", scene_.output.checkpoint_interval);
         document_.take("output.energy_ledger", scene_.output.energy_ledger);
+        document_.take("output.interface_loads", scene_.output.interface_loads);
         columns();
         comparisons();
     }

@@ -72,6 +72,12 @@ class Validation {
 
     // Choices of the fluid's method that do not go together.
     void fluid_scheme() {
+        if (scene_.output.interface_loads && !(scene_.fluid && scene_.solid))
+            complaints_.add("output.interface_loads", "there are no loads between water and a body in this scene",
+                            "take it out, or add what is missing, [fluid] or [solid]");
+        if (scene_.output.interface_loads && complaints_.positions.contains("output.history_interval"))
+            complaints_.add("output.interface_loads", "loads are of use with a row for every coupling cycle only",
+                            "take `history_interval` out, or interface_loads = false");
         if (!scene_.fluid) return;
         const FluidScene& fluid = *scene_.fluid;
         const bool riemann =

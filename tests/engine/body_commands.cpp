@@ -67,12 +67,13 @@ TEST_CASE("a scene's body as a deck for CalculiX") {
     ScratchFolder folder;
     const std::string text = beam + "[[solid.track]]\nname = \"tip\"\npoint = [1.0, 0.1]\n";
     std::ostringstream out;
-    engine::export_calculix(io::read_scene(folder.write("scene.toml", text)), folder / "beam.inp", out);
+    engine::export_calculix(io::read_scene(folder.write("scene.toml", text)), folder / "beam.inp", {}, out);
     const std::string deck = contents(folder / "beam.inp");
     for (const char* part : {"*ELEMENT, ELSET=BODY, TYPE=CPE8R\n", "*ELASTIC\n10000000, ", "*DENSITY\n1000\n",
                              "*STEP, INC=1000000, NLGEOM\n*DYNAMIC, DIRECT, ALPHA=", "BODY, GRAV, 9.81", "*END STEP"})
         CHECK(deck.find(part) != std::string::npos);
     CHECK(out.str().find("track tip is node") != std::string::npos);
-    CHECK_THROWS_WITH_AS(engine::export_calculix(io::read_scene(folder.write("scene.toml", gate)), folder / "x", out),
-                         doctest::Contains("without water"), io::SceneError);
+    CHECK_THROWS_WITH_AS(
+        engine::export_calculix(io::read_scene(folder.write("scene.toml", gate)), folder / "x", {}, out),
+        doctest::Contains("without water"), io::SceneError);
 }
