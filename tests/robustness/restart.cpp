@@ -58,11 +58,9 @@ bool says(const std::string& text, const std::string& what) {
     return text.find(what) != std::string::npos;
 }
 
-}  // namespace
-
-TEST_CASE("killed twenty times, the run ends in the same bits") {
+void check_killed(const std::string& scene, int times) {
     const ScratchFolder folder;
-    folder.write("scene.toml", with(gate, "end = 0.02", "end = 0.16"));
+    folder.write("scene.toml", scene);
     Program alone(folder, {"run", "scene.toml", "--out", "whole", "--quiet", "--checkpoint-every", "0"});
     const auto begin = std::chrono::steady_clock::now();
     REQUIRE(alone.wait(std::chrono::seconds(60)) == 0);
@@ -71,9 +69,9 @@ TEST_CASE("killed twenty times, the run ends in the same bits") {
     const ResultsFolder whole{folder / "whole"}, results{folder / "results"};
     const auto arguments = run_with({"--restart", "auto", "--checkpoint-every", "2e-4"});
     std::mt19937 random(7);
-    // Twenty of these on average get through half of the run.
-    std::uniform_real_distribution<double> moment(0.01, 0.05 * took.count() + 0.01);
-    for (int k = 0; k < 20; ++k) {
+    // All of these together on average get through half of the run.
+    std::uniform_real_distribution<double> moment(0.01, took.count() / times + 0.01);
+    for (int k = 0; k < times; ++k) {
         Program program(folder, arguments);
         std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
         REQUIRE(program.running());
@@ -92,6 +90,16 @@ TEST_CASE("killed twenty times, the run ends in the same bits") {
         CHECK(a.at("tasks").at(task).at("calls") == b.at("tasks").at(task).at("calls"));
     CHECK(b.at("restarts") >= 3);
     CHECK(a.at("restarts") == 0);
+}
+
+}  // namespace
+
+TEST_CASE("killed twenty times, the run ends in the same bits") {
+    check_killed(with(gate, "end = 0.02", "end = 0.16"), 20);
+}
+
+TEST_CASE("killed ten times, a run whose cycles are iterated ends in the same bits") {
+    check_killed(with(with_coupling(gate, "iterated", 2), "end = 0.02", "end = 0.1"), 10);
 }
 
 TEST_CASE("signals leave a checkpoint, and the run goes on from there with the same bits") {
