@@ -24,7 +24,7 @@ inline bool may_see(const engine::Model<2>& model, std::size_t i, std::size_t la
     return visibility.lanes_seen(i, lane / fluid::W, bit) != 0;
 }
 
-// Force of lane j on particle i [N/m]: -ω_i ω_j 2 p_e ∇W_ij with ∇W_ij = -W'(r) e_ij.
+// Force of lane j on particle i [N/m]: -ω_i ω_j 2 p_e ∇W_ij with ∇W_ij = -W'(r) e_ij, and viscosity.
 inline Vec2 pair_force(const fluid::Fluid<2>& fluid, std::size_t i, std::size_t j) {
     const auto& s = fluid.particles;
     const auto vector = [](const fluid::Vectors<2>& v, std::size_t k) { return Vec2(v[0][k], v[1][k]); };
@@ -45,7 +45,15 @@ inline Vec2 pair_force(const fluid::Fluid<2>& fluid, std::size_t i, std::size_t 
         }
     }
     const auto state = fluid::acoustic_riemann(v_L.dot(e), p_L, s.impedance[i], v_R.dot(e), p_R, s.impedance[j]);
-    return 2 * state.pressure * fluid.kernel.derivative(r) * s.volume[i] * s.volume[j] * e;
+    const double gradient = fluid.kernel.derivative(r) * s.volume[i] * s.volume[j];
+    Vec2 force = 2 * state.pressure * gradient * e;
+    // µ ω_i ω_j times 8 (x·v)/|x|² ∇W (Monaghan and Gingold) or 2 (x·∇W)/|x|² v (Morris), ∇W = -W' e
+    const Vec2 dv = vector(s.v, j) - vector(s.v, i);
+    if (fluid.viscosity.form == fluid::ViscousOperator::morris)
+        force -= fluid.viscosity.dynamic * 2 / r * gradient * dv;
+    else
+        force -= fluid.viscosity.dynamic * 8 * dx.dot(dv) / (r * r) * gradient * e;
+    return force;
 }
 
 // f(particle, ghost, force of the ghost on the particle) for all pairs within sight of each other.

@@ -1,9 +1,11 @@
 #include "physics/coupling/loads/force_conservative.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "physics/fluid/schemes/flux_pass.hpp"
+#include "physics/fluid/viscous_pair.hpp"
 
 namespace aquagraph::coupling {
 
@@ -88,6 +90,24 @@ Vec2 force_on_ghost(const fluid::FluxFields<2>& fields, const Pair& pair_flux, s
     }
     return fields.volume[lane] * Vec2(fx, fy);
 }
+
+// The viscous part, µ ω_g ω_i L_gi: what the operator takes from the particles.
+template <fluid::ViscousOperator form, class Kernel>
+Vec2 friction_on_ghost(const fluid::Particles<2>& s, const Kernel& kernel, double dynamic, std::size_t lane,
+                       const std::uint32_t* neighbour, std::size_t n) {
+    double sum[2] = {};
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = neighbour[k];
+        const double dx[2] = {s.x[0][i] - s.x[0][lane], s.x[1][i] - s.x[1][lane]},
+                     dv[2] = {s.v[0][i] - s.v[0][lane], s.v[1][i] - s.v[1][lane]},
+                     r2 = dx[0] * dx[0] + dx[1] * dx[1] + 1e-200;
+        double laplacian[2];
+        fluid::viscous_pair<2, form>(dx, dv, r2, kernel.slope(std::sqrt(r2) * kernel.inverse_radius()) * s.volume[i],
+                                     laplacian);
+        for (int d = 0; d < 2; ++d) sum[d] += laplacian[d];
+    }
+    return dynamic * s.volume[lane] * Vec2(sum[0], sum[1]);
+}
 }  // namespace
 
 void ForceConservativeLoad::compute(const fluid::Fluid<2>& fluid, std::size_t block) {
@@ -101,6 +121,21 @@ void ForceConservativeLoad::compute(const fluid::Fluid<2>& fluid, std::size_t bl
                 force_on_ghost(fields, pair_flux, lane, fluid_.data() + source.begin, source.end - source.begin);
         }
     });
+    if (fluid.viscosity.dynamic == 0) return;
+    const auto add_friction = [&]<fluid::ViscousOperator form>() {
+        fluid.kernel.visit([&](const auto& kernel) {
+            for (std::size_t s = block * sources_per_block; s < end; ++s) {
+                const Source& source = sources_[s];
+                force_[s] += friction_on_ghost<form>(fluid.particles, kernel, fluid.viscosity.dynamic,
+                                                     fluid.particles.ghost_begin() + source.ghost,
+                                                     fluid_.data() + source.begin, source.end - source.begin);
+            }
+        });
+    };
+    if (fluid.viscosity.form == fluid::ViscousOperator::morris)
+        add_friction.template operator()<fluid::ViscousOperator::morris>();
+    else
+        add_friction.template operator()<fluid::ViscousOperator::monaghan_gingold>();
 }
 
 void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const fluid::GhostWalls<2>& walls,

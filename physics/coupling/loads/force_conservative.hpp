@@ -1,9 +1,10 @@
 // The force-conservative load (thesis (5.40)-(5.42)): what the fluid exerts on panel k is minus the boundary terms of
 // its momentum equation,
 //     F_k = - Σ_{ghosts j of k} Σ_i [force on i from j] = Σ_i Σ_j 2 p_e ∇W_ij ω_i ω_j,
-// so that the total on the body is exactly minus the total that the body exerts on the fluid. A ghost's share goes to
-// the two ends of its panel by linear shape functions at the foot of its perpendicular; the wall velocity that the
-// fluid sees is interpolated with the same functions, so force and velocity are conjugate.
+// and in viscous water the viscous part of the same pairs, so that the total on the body is exactly minus the total
+// that the body exerts on the fluid. A ghost's share goes to the two ends of its panel by linear shape functions at the
+// foot of its perpendicular; the wall velocity that the fluid sees is interpolated with the same functions, so force
+// and velocity are conjugate.
 //
 // Sums run around ghosts here, the other way round than in the flux pass; pairs are the same, with the same masks.
 #pragma once
