@@ -26,14 +26,6 @@ const Mesh<2>& beam() {
     return mesh;
 }
 
-void start_with(Solver<2>& solver, const std::vector<double>& u, const std::vector<double>& v) {
-    State state;
-    solver.save(state);
-    state.displacements = u;
-    state.velocities = v;
-    solver.restore(state);
-}
-
 // The part of critical damping that a swing in the lowest mode shows over ten periods.
 double measured_damping(Options<2> options) {
     const Mode mode = lowest_mode(beam(), options);

@@ -27,14 +27,6 @@ const Mesh<2>& beam() {
     return mesh;
 }
 
-void start_with(Solver<2>& solver, const std::vector<double>& u, const std::vector<double>& v) {
-    State state;
-    solver.save(state);
-    state.displacements = u;
-    state.velocities = v;
-    solver.restore(state);
-}
-
 // Bends far (a fifth of its length) under a load that comes and goes smoothly; positions at time 0.2 s.
 std::vector<double> large_swing(Options<2> options, int steps) {
     constexpr double end = 0.2;

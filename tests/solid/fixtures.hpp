@@ -97,6 +97,15 @@ class Random {
     std::uint64_t state_ = 42;
 };
 
+// Puts a solver into this state of motion.
+inline void start_with(Solver<2>& solver, const std::vector<double>& u, const std::vector<double>& v) {
+    State state;
+    solver.save(state);
+    state.displacements = u;
+    state.velocities = v;
+    solver.restore(state);
+}
+
 struct Mode {
     double frequency = 0;       // [Hz]
     std::vector<double> shape;  // 2 × nodes, largest component 1
