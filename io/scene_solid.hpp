@@ -124,10 +124,10 @@ struct SolidScene {
     solid::Integration integration = solid::Integration::reduced;
     solid::PlaneCondition plane = solid::PlaneCondition::strain;
     solid::Scheme scheme = solid::Scheme::hht;
-    bool is_static = false;     // each step an equilibrium, instead of a motion
-    double alpha = -0.3;        // αs in ]-1/3, 0]
-    double step = 0;            // [s], of a body without water
-    bool static_start = false;  // equilibrium under its own weight, and the loads at t = 0, before t = 0
+    bool is_static = false;         // each step an equilibrium, instead of a motion
+    double alpha = -0.3;            // αs in ]-1/3, 0]
+    double step = 0;                // [s], of a body without water
+    bool static_start = false;      // equilibrium under its own weight, and the loads at t = 0, before t = 0
     std::optional<Point> velocity;  // at the start [m/s]
     std::vector<Clamp> clamps;
     std::vector<TractionScene> tractions;
