@@ -134,6 +134,30 @@ TEST_CASE("slips in motions, pressures and rigid bodies") {
     refused(rim + rim, "the name \"rim\" is already taken", "choose another");
 }
 
+TEST_CASE("the balance of water and body together refuses work that it does not count") {
+    const std::string water =
+        "wet = [\"left\"]\n[fluid]\nspacing = 0.1\nsound_speed = 20.0\n[[fluid.box]]\nmin = [0.0, 0.5]\nmax = [0.5, "
+        "1.0]\n"
+        "[output]\nenergy_ledger = true\n";
+    std::string text = sound;
+    text.replace(text.find("[solid.scheme]\nstep = 0.1\n"), 26,
+                 "[[solid.pressure]]\nsurface = \"right\"\nvalue = 1.0\n");
+    text.replace(text.find("[solid]\n"), 8, "[solid]\n" + water);
+    ScratchFolder folder;
+    const auto error = [&] {
+        try {
+            io::read_scene(folder.write("scene.toml", text));
+        } catch (const io::SceneError& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    CHECK(error().find("no column for the work of what moves or presses the body") != std::string::npos);
+    text.replace(text.find("energy_ledger = true"), 20, "energy_ledger = false");
+    CAPTURE(error());
+    CHECK(error().empty());
+}
+
 TEST_CASE("slips in contacts") {
     const std::string ground = "[[solid.contact]]\nname = \"road\"\nsurface = \"bottom\"\npoint = [0, 0]\n";
     refused(ground, "`normal` of the ground is missing", "a plane has point and normal");
