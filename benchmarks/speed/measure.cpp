@@ -246,6 +246,11 @@ std::string finite_elements(int threads) {
     return title("solid", "Finite elements", threads) + benchmarks::solid_tables(threads);
 }
 
+std::string large_solid(int threads) {
+    return title("solid-large", "Finite elements: linear solvers on a large mesh", threads) +
+           benchmarks::large_solid_table(threads);
+}
+
 std::string cases(int threads) {
     return title("cases", "Cases: speed and error", threads) +
            fmt::format(
@@ -258,10 +263,11 @@ std::string cases(int threads) {
 constexpr struct {
     const char* name;
     std::string (*write)(int threads);
-} sections[] = {{"passes", passes}, {"steps", steps}, {"solid", finite_elements}, {"cases", cases}};
+} sections[] = {
+    {"passes", passes}, {"steps", steps}, {"solid", finite_elements}, {"solid-large", large_solid}, {"cases", cases}};
 
 constexpr const char* usage =
-    "usage: aquagraph-measure [--only passes|steps|solid|cases] [--print]\n"
+    "usage: aquagraph-measure [--only passes|steps|solid|solid-large|cases] [--print]\n"
     "  --only   measure this section alone; the others stay in benchmarks/RESULTS.md as they are\n"
     "  --print  write to the terminal alone\n";
 
