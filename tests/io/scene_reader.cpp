@@ -1,5 +1,4 @@
-// What a scene says arrives in the plain data, defaults included; the shipped scenes are sound and SCENES.md is
-// complete.
+// What a scene says arrives in the plain data, defaults included; SCENES.md and STUDIES.md are complete.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -31,17 +30,6 @@ std::vector<std::string> toml_blocks(const std::string& markdown) {
 }
 
 }  // namespace
-
-TEST_CASE("the shipped scenes are read") {
-    for (const char* name :
-         {"gate_2d/scene.toml", "gate_2d/scene_fast.toml", "gate_2d/scene_1mm.toml", "gate_2d/scene_thesis.toml",
-          "hydrostatic_plate/scene.toml", "hydrostatic_plate/scene_1cm.toml", "solid/cook/scene.toml",
-          "solid/cook/scene_incompressible.toml", "solid/cantilever/scene.toml", "solid/beam_modes/scene.toml",
-          "solid/turek_hron/csm1.toml", "solid/turek_hron/csm2.toml", "solid/turek_hron/csm3.toml"}) {
-        CAPTURE(name);
-        CHECK_NOTHROW(io::read_scene(benchmarks / name));
-    }
-}
 
 TEST_CASE("the gate arrives as the thesis has it") {
     const io::Scene scene = io::read_scene(benchmarks / "gate_2d/scene_thesis.toml");
