@@ -39,8 +39,8 @@ constexpr auto sections = std::to_array<SceneSection>({
     {"wall.cylinder", false, false, "A cylinder of triangles, with flat ends."},
     {"wall.stl", false, false,
      "A surface of triangles from an STL file, ASCII or binary: scaled, turned, moved, in this order. Triangles "
-     "without "
-     "area, twice the same, looking opposite ways or cutting through each other are refused, with their places."},
+     "without area, twice the same, looking opposite ways or cutting through each other are refused, with their "
+     "places."},
     {"wall.motion", false, false,
      "The wall moves by itself. Laws of a translation and of a rotation, and a table, add up; all are counted from "
      "t = 0, when the wall is where it is drawn."},
@@ -55,14 +55,7 @@ using K = KeyKind;
 std::vector<SceneKey> filling_keys(std::string_view section) {
     return {
         {section, "level", K::number, false, "m", any, "", "none", "height that the water reaches: nothing above"},
-        {section,
-         "clearance",
-         K::number,
-         false,
-         "Δx",
-         {0, 1, false, false},
-         "",
-         "0.5",
+        {section, "clearance", K::number, false, "Δx", closed(0, 1), "", "0.5",
          "distance of particles from the surface; without meaning where they are relaxed"},
     };
 }
@@ -109,14 +102,7 @@ std::vector<SceneKey> swing_keys(std::string_view section) {
          "of the swinging: amplitude · sin(2π frequency t + phase)"},
         {section, "period", K::number, false, "s", positive, "", "none", "1/frequency"},
         {section, "phase", K::number, false, "rad", any, "", "0", "at t = 0"},
-        {section,
-         "ramp",
-         K::number,
-         false,
-         "s",
-         {0, inf, false, true},
-         "",
-         "0",
+        {section, "ramp", K::number, false, "s", not_negative, "", "0",
          "time in which the motion grows smoothly from rest"},
     };
 }
@@ -130,40 +116,17 @@ std::vector<SceneKey> all_keys() {
         {"fluid", "density", K::number, false, "kg/m³", positive, "", "1000", "ρ0, at zero pressure"},
         {"fluid", "sound_speed", K::number, true, "m/s", positive, "", "",
          "c0, at least ten times the fastest flow to be expected"},
-        {"fluid",
-         "polytropic_exponent",
-         K::number,
-         false,
-         "",
-         {1, 20, false, false},
-         "",
-         "7",
-         "γ of the Tait equation"},
-        {"fluid",
-         "support_ratio",
-         K::number,
-         false,
-         "",
-         {1.5, 6, false, false},
-         "",
-         "4",
+        {"fluid", "polytropic_exponent", K::number, false, "", closed(1, 20), "", "7", "γ of the Tait equation"},
+        {"fluid", "support_ratio", K::number, false, "", closed(1.5, 6), "", "4",
          "R/Δx, radius of the kernel in particle distances"},
         {"fluid", "kernel", K::choice, false, "", any, "wendland_c2 cubic_spline", "wendland_c2", "smoothing kernel"},
         {"fluid", "integration", K::choice, false, "", any, "rk4 rk3 verlet", "rk4",
          "time integration: Runge–Kutta of order 4 (4 evaluations a step), of order 3 (3), or velocity Verlet (1)"},
-        {"fluid",
-         "cfl",
-         K::number,
-         false,
-         "",
-         {0, 1, true, false},
-         "",
-         "rk4: 0.375, rk3: 0.35, verlet: 0.15",
+        {"fluid", "cfl", K::number, false, "", open_below(0, 1), "", "rk4: 0.375, rk3: 0.35, verlet: 0.15",
          "K of Δt = K R/c"},
         {"fluid", "walls", K::choice, false, "", any, "ghosts normal_flux", "ghosts",
          "particles mirrored through the walls, or fluxes through their surface; the latter for riemann alone, without "
-         "a "
-         "solid, a periodic domain and an energy ledger; viscosity by morris"},
+         "a periodic domain, an energy ledger, the energy-conservative load and iterated cycles; viscosity by morris"},
         {"fluid", "initial_pressure", K::choice, false, "", any, "hydrostatic zero", "hydrostatic",
          "pressure at t = 0"},
         {"fluid", "surface_level", K::number, false, "m", any, "", "highest top of the water",
@@ -172,16 +135,8 @@ std::vector<SceneKey> all_keys() {
          "an acceleration beside gravity that has no part in hydrostatic pressures: drives a flow between plates"},
         {"fluid", "relax", K::boolean, false, "", any, "", "false",
          "moves the particles of polygons, discs, spheres and volumes to a regular distribution before t = 0; they "
-         "then "
-         "have the exact volume"},
-        {"fluid",
-         "relax_tolerance",
-         K::number,
-         false,
-         "",
-         {0, 1, true, true},
-         "",
-         "0.002",
+         "then have the exact volume"},
+        {"fluid", "relax_tolerance", K::number, false, "", open(0, 1), "", "0.002",
          "standard deviation of the kernel sum at which that ends"},
 
         {"fluid.scheme", "name", K::choice, false, "", any, "riemann riemann_ale delta_sph artificial_viscosity",
@@ -191,16 +146,9 @@ std::vector<SceneKey> all_keys() {
          "Riemann schemes: states between two particles linear with limiter, or none"},
         {"fluid.scheme", "riemann_solver", K::choice, false, "", any, "acoustic low_dissipation exact", "acoustic",
          "Riemann schemes: linearised, with the low-dissipation limiter, or exact (polytropic_exponent 7 only)"},
-        {"fluid.scheme", "delta", K::number, false, "", {0, 1, false, false}, "", "0.1", "δ-SPH: diffusion of density"},
-        {"fluid.scheme",
-         "alpha",
-         K::number,
-         false,
-         "",
-         {0, 10, false, false},
-         "",
-         "0.01 with delta_sph, 0.05 with artificial_viscosity",
-         "δ-SPH and artificial viscosity: dissipation α"},
+        {"fluid.scheme", "delta", K::number, false, "", closed(0, 1), "", "0.1", "δ-SPH: diffusion of density"},
+        {"fluid.scheme", "alpha", K::number, false, "", closed(0, 10), "",
+         "0.01 with delta_sph, 0.05 with artificial_viscosity", "δ-SPH and artificial viscosity: dissipation α"},
 
         {"fluid.viscosity", "dynamic", K::number, true, "Pa s", positive, "", "", "µ"},
         {"fluid.viscosity", "operator", K::choice, false, "", any, "monaghan_gingold morris", "monaghan_gingold",
@@ -208,9 +156,8 @@ std::vector<SceneKey> all_keys() {
 
         {"fluid.transport", "name", K::choice, true, "", any, "none x_sph shifting", "",
          "particles move with the water, with X-SPH's smoothed velocity, or are shifted to a regular arrangement "
-         "(needs "
-         "riemann_ale)"},
-        {"fluid.transport", "epsilon", K::number, false, "", {0, 1, false, false}, "", "0.5", "ε of X-SPH"},
+         "(needs riemann_ale)"},
+        {"fluid.transport", "epsilon", K::number, false, "", closed(0, 1), "", "0.5", "ε of X-SPH"},
 
         {"fluid.box", "min", K::point, true, "m", any, "", "", "lower left corner"},
         {"fluid.box", "max", K::point, true, "m", any, "", "",
@@ -254,8 +201,7 @@ std::vector<SceneKey> all_keys() {
          "along the wall: free slip or no slip; symmetry: free slip, and no body that bears a load"},
         {"wall", "force", K::boolean, false, "", any, "", "false",
          "writes the water's force on the wall into history.csv, as NAME_force_x and so on; with an energy ledger also "
-         "its "
-         "work on the water, NAME_work"},
+         "its work on the water, NAME_work"},
 
         {"wall.box", "min", K::point, true, "m", any, "", "", "lower left corner"},
         {"wall.box", "max", K::point, true, "m", any, "", "", "upper right corner"},
@@ -269,8 +215,7 @@ std::vector<SceneKey> all_keys() {
 
         {"wall.extrusion", "points", K::points, true, "m", any, "", "",
          "of two coordinates each: (y, z) along x, (x, z) along y, (x, y) along z; the fluid is on the left as drawn "
-         "with "
-         "the first to the right and the second upwards"},
+         "with the first to the right and the second upwards"},
         {"wall.extrusion", "closed", K::boolean, false, "", any, "", "false", "joins the last point to the first"},
         {"wall.extrusion", "caps", K::boolean, false, "", any, "", "false", "closes both ends"},
         {"wall.extrusion", "axis", K::choice, true, "", any, "x y z", "", "drawn along this direction"},

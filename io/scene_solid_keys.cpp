@@ -17,8 +17,7 @@ constexpr auto sections = std::to_array<SceneSection>({
      "alone, at rest or in motion. With water it is two-dimensional so far."},
     {"solid.box", false, false,
      "A rectangle of quadrilaterals, with the node sets and surfaces left, right, bottom and top; in three dimensions "
-     "a "
-     "box of hexahedra, with front (least y) and back too."},
+     "a box of hexahedra, with front (least y) and back too."},
     {"solid.material", false, false, "What the body is made of. Needed with [solid]."},
     {"solid.part", true, false, "Elements of another material than the rest: the same keys as [solid.material]."},
     {"solid.scheme", false, false, "How the body is taken through time."},
@@ -57,25 +56,15 @@ constexpr auto body_keys = std::to_array<SceneKey>({
     {"solid", "name", K::text, false, "", any, "", "solid", "letters, digits and _, beginning with a letter"},
     {"solid", "solver", K::choice, false, "", any, "built_in calculix", "built_in",
      "who computes the body: this program, or CalculiX, started once per step (slow; quadratic quadrilaterals in plane "
-     "strain and hexahedra, "
-     "integration = full)"},
+     "strain and hexahedra, integration = full)"},
     {"solid", "program", K::text, false, "", any, "", "ccx",
      "CalculiX; looked for in PATH, with a slash seen from the scene's folder"},
     {"solid", "mesh", K::text, false, "", any, "", "none",
      "Gmsh file (.msh, 4.1 or 2.2, ASCII) or CalculiX or Abaqus deck (.inp), seen from the scene's folder; either this "
-     "or "
-     "[solid.box]. Physical groups, NSET, ELSET and SURFACE become sets of these names"},
-    {"solid",
-     "order",
-     K::integer,
-     false,
-     "",
-     {1, 2, false, false},
-     "",
-     "2",
+     "or [solid.box]. Physical groups, NSET, ELSET and SURFACE become sets of these names"},
+    {"solid", "order", K::integer, false, "", closed(1, 2), "", "2",
      "of boxes and Gmsh files. 2: elements of 8 nodes, in three dimensions 20 or 10, made where the mesh has none on "
-     "its "
-     "edges; 1: of 4 or 8, with enhanced strains so that they do not lock"},
+     "its edges; 1: of 4 or 8, with enhanced strains so that they do not lock"},
     {"solid", "integration", K::choice, false, "", any, "reduced full", "reduced",
      "Gauss points of quadratic elements: 2 each way, which do not lock, or 3"},
     {"solid", "plane", K::choice, false, "", any, "strain stress", "strain",
@@ -102,14 +91,7 @@ std::vector<SceneKey> material_keys(std::string_view section) {
         {section, "density", K::number, true, "kg/m³", positive, "", "", "ρ of the body at rest"},
         {section, "youngs_modulus", K::number, false, "Pa", positive, "",
          "needed but for mooney_rivlin and uniaxial_curve", "E at small strain"},
-        {section,
-         "poissons_ratio",
-         K::number,
-         false,
-         "",
-         {-1, 0.5, true, true},
-         "",
-         "needed but for mooney_rivlin",
+        {section, "poissons_ratio", K::number, false, "", open(-1, 0.5), "", "needed but for mooney_rivlin",
          "ν at small strain"},
         {section, "c10", K::number, false, "Pa", positive, "", "needed for mooney_rivlin",
          "C10 of W = C10 (Ī1 - 3) + C01 (Ī2 - 3) + κ/2 (J - 1)²"},
@@ -117,8 +99,7 @@ std::vector<SceneKey> material_keys(std::string_view section) {
         {section, "bulk_modulus", K::number, false, "Pa", positive, "", "needed for mooney_rivlin", "κ"},
         {section, "curve", K::text, false, "", any, "", "needed for uniaxial_curve",
          "file of two columns, seen from the scene's folder: strain, and force per area at rest [Pa] of a strip that "
-         "is "
-         "pulled"},
+         "is pulled"},
     };
 }
 
@@ -126,14 +107,7 @@ constexpr auto condition_keys = std::to_array<SceneKey>({
     {"solid.scheme", "name", K::choice, false, "", any, "hht newmark central_difference static", "hht",
      "Hilber–Hughes–Taylor, or Newmark with the same β and γ; central differences, explicit; static: an equilibrium at "
      "the end of every step. The last two without water"},
-    {"solid.scheme",
-     "alpha",
-     K::number,
-     false,
-     "",
-     {-1.0 / 3, 0, true, false},
-     "",
-     "-0.3",
+    {"solid.scheme", "alpha", K::number, false, "", open_below(-1.0 / 3, 0), "", "-0.3",
      "αs, numerical damping of high frequencies: 0 none"},
     {"solid.scheme", "step", K::number, false, "s", positive, "",
      "static: the end time; central differences: 0.9 of the critical step",

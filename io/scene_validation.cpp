@@ -113,19 +113,30 @@ class Validation {
                             "choose [fluid.scheme] name = \"riemann_ale\", or no shifting");
     }
 
+    // What would be read and then do nothing.
+    void idle_keys() {
+        if (!scene_.fluid) {
+            idle("output.energy_ledger", !complaints_.touch("fluid"), "a body alone has its energies as columns anyway",
+                 "take it out, or add [fluid]");
+            idle("domain.periodic", !complaints_.touch("fluid"), "only water goes round a periodic domain",
+                 "take it out, or add [fluid]");
+            return;
+        }
+        const FluidScene& fluid = *scene_.fluid;
+        idle("fluid.transport.epsilon", fluid.transport != fluid::Transport::x_sph, "`epsilon` belongs to X-SPH",
+             "take it out, or choose name = \"x_sph\"");
+        idle("fluid.relax_tolerance", !fluid.relax, "nothing is relaxed in this scene",
+             "take it out, or give relax = true");
+    }
+
     // Keys that do nothing, and loads that a scheme cannot give.
     void coupling() {
         const CouplingScene& coupling = scene_.coupling;
-        const auto idle = [&](const char* key, bool is_idle, const char* why, const char* help) {
-            const std::string full = std::string("coupling.") + key;
-            if (is_idle && complaints_.positions.contains(full) && !complaints_.touch(full))
-                complaints_.add(full, why, help);
-        };
-        for (const char* key : {"relaxation", "tolerance", "most_iterations"})
+        for (const char* key : {"coupling.relaxation", "coupling.tolerance", "coupling.most_iterations"})
             idle(key, coupling.algorithm != CouplingAlgorithm::iterated, "only the iterated algorithm iterates",
                  "take it out, or choose algorithm = \"iterated\"");
         const bool energy = coupling.load == coupling::LoadMethod::energy_conservative;
-        idle("energy_cycles", !energy, "only the energy-conservative load averages over cycles",
+        idle("coupling.energy_cycles", !energy, "only the energy-conservative load averages over cycles",
              "take it out, or choose load = \"energy_conservative\"");
         if (energy && scene_.fluid && scene_.fluid->scheme.name == fluid::Scheme::riemann_ale)
             complaints_.add("coupling.load", "energies are only known of schemes that keep each particle's mass",
@@ -351,6 +362,10 @@ class Validation {
     }
 
   private:
+    void idle(const char* key, bool is_idle, const char* why, const char* help) {
+        if (is_idle && complaints_.positions.contains(key) && !complaints_.touch(key)) complaints_.add(key, why, help);
+    }
+
     static std::string_view extent(const Box& box, std::size_t d) {
         if (d + 1 == box.min.size()) return "high";
         return d == 0 ? "wide" : "deep";
@@ -409,6 +424,7 @@ void validate(const Scene& scene, Complaints& complaints) {
     validation.periodic(complaints.positions.contains("domain") && !complaints.touch("domain"));
     validate_solid(scene, complaints);
     validation.fluid_scheme();
+    validation.idle_keys();
     validation.coupling();
     validation.wall_method();
     validation.fluid_boxes();

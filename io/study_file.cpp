@@ -23,23 +23,15 @@ constexpr auto sections = std::to_array<SceneSection>({
      "A named set of overrides: a scheme, a wall, an integrator. Without any the scenes run as they are."},
     {"axis", true, false,
      "A key and values for it. Every value goes with every value of the other axes and with every variant: names "
-     "become "
-     "`cps_p4`, of a value that is a word itself, of a number with the axis's name before it."},
+     "become `cps_p4`, of a value that is a word itself, of a number with the axis's name before it."},
     {"case", true, false, "A scene at several resolutions, in some or all of the variants."},
 });
 
 constexpr auto keys = std::to_array<SceneKey>({
-    {"", "schema_version", K::integer, true, "", {1, 1, false, false}, "", "", "version of this layout"},
+    {"", "schema_version", K::integer, true, "", closed(1, 1), "", "", "version of this layout"},
     {"", "name", K::text, false, "", any, "", "the file's, up to its first dot", "of the section in the results"},
     {"", "title", K::text, false, "", any, "", "the name", "heading of the section"},
-    {"",
-     "repeats",
-     K::integer,
-     false,
-     "",
-     {1, 100, false, false},
-     "",
-     "1",
+    {"", "repeats", K::integer, false, "", closed(1, 100), "", "1",
      "runs of everything, in turn; times are their medians"},
     {"", "time_limit", K::number, false, "s", positive, "", "3600",
      "a run that takes longer is stopped and counts as failed"},
@@ -73,8 +65,7 @@ constexpr auto keys = std::to_array<SceneKey>({
      "axis: times are over that of the run with its first value and all else the same"},
     {"case", "growth", K::number, false, "", positive, "", "not looked at",
      "a run is also unstable if its curve's range in the last quarter of the time is larger than this times that in "
-     "the "
-     "second quarter"},
+     "the second quarter"},
     {"case", "roughness", K::number, false, "", positive, "", "2",
      "a run is unstable if it fails, or if its curve's total variation is larger than this times the reference's"},
 });

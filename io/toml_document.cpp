@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <system_error>
 
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
@@ -436,15 +438,17 @@ class Override {
                      fmt::format("one of a list of tables is {}[0]", name));
             return nullptr;
         }
-        const int place = std::atoi(std::string(name.substr(bracket + 1)).c_str());
+        std::size_t place = 0;
+        const char* const end = name.data() + name.size();
+        const auto [behind, error] = std::from_chars(name.data() + bracket + 1, end, place);
+        const bool is_number = error == std::errc{} && std::string_view(behind, end) == "]";
         toml::array* list = node ? node->as_array() : nullptr;
         const std::size_t size = list ? list->size() : 0;
-        if (!name.ends_with(']') || place < 0 || std::size_t(place) >= size ||
-            !list->get(std::size_t(place))->is_table()) {
+        if (!is_number || place >= size || !list->get(place)->is_table()) {
             complain(fmt::format("there is no {}: the file has {} of them", name, size), "the first one is number 0");
             return nullptr;
         }
-        return list->get(std::size_t(place))->as_table();
+        return list->get(place)->as_table();
     }
 
     const std::string& text_;

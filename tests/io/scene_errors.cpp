@@ -7,10 +7,13 @@
 #include <string>
 
 #include "io/scene_reader.hpp"
-#include "scratch.hpp"
+#include "tests/io/scratch.hpp"
+#include "tests/text.hpp"
 
 using namespace aquagraph;
 using test::ScratchFolder;
+using test::with;
+using test::without;
 
 namespace {
 
@@ -49,12 +52,6 @@ point = [1.0, 0.0]
 [coupling]
 ratio = 2
 )";
-
-std::string with(std::string text, std::string_view old, std::string_view replacement) {
-    const auto at = text.find(old);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, old.size(), replacement);
-}
 
 std::string error_of(const std::string& text, std::vector<io::SceneComplaint>* complaints = nullptr) {
     ScratchFolder folder;
@@ -306,12 +303,11 @@ TEST_CASE("laws and their numbers") {
 }
 
 TEST_CASE("a solid without water") {
-    std::string alone = sound;
-    alone = with(alone,
-                 "[fluid]\nspacing = 0.1\nsound_speed = 20.0\n[[fluid.box]]\nmin = [0.0, 0.0]\nmax = [1.0, "
-                 "0.5]\n[[wall]]\nname = \"floor\"\npoints = [[0.0, 0.0], [1.0, 0.0]]\n",
-                 "");
-    alone = with(with(alone, "wet = [\"left\"]\n", ""), "[coupling]\nratio = 2\n", "");
+    std::string alone =
+        without(sound,
+                "[fluid]\nspacing = 0.1\nsound_speed = 20.0\n[[fluid.box]]\nmin = [0.0, 0.0]\nmax = [1.0, "
+                "0.5]\n[[wall]]\nname = \"floor\"\npoints = [[0.0, 0.0], [1.0, 0.0]]\n");
+    alone = without(without(alone, "wet = [\"left\"]\n"), "[coupling]\nratio = 2\n");
     const auto found = [&](const std::string& extra, const std::string& message) {
         const std::string error = error_of(alone + extra);
         CAPTURE(error);
@@ -330,11 +326,21 @@ TEST_CASE("a solid without water") {
     found(step + "[[solid.force]]\nvalue = [1, 0]\n", "neither `set` nor `point`");
     found(step + "[[solid.force]]\nvalue = [1, 0]\npoint = [1, 0, 0]\n", "a point of 3 coordinates");
     found(step + "[[solid.force]]\nvalue = [1, 0]\nset = \"top\"\npoint = [1, 0]\n", "both a `set` and a `point`");
+    found(step + "[output]\nenergy_ledger = true\n", "a body alone has its energies as columns");
+    CHECK(error_of(with(alone + step, "max = [2.0, 2.0]\n", "max = [2.0, 2.0]\nperiodic = [\"x\"]\n"))
+              .find("only water goes round") != std::string::npos);
     found(step + "[[probe]]\nname = \"p\"\nquantity = \"pressure\"\npoint = [0, 0]\n", "a probe needs water");
     expect("[coupling]", load + "[coupling]", 32, 1, "a body in water bears the water's load alone", "");
     expect("[coupling]", step + "[coupling]", 33, 8, "with water the step of the solid is the coupling cycle", "");
     expect("elements = [1, 5]", "elements = [1, 5, 2]", 22, 12, "3 counts in a scene of 2 dimensions", "along y]");
     expect("wet = [\"left\"]", "wet = [\"left\"]\norder = 1", 19, 9, "needs elements with nodes on their edges", "");
+}
+
+TEST_CASE("keys that would do nothing") {
+    expect("[[fluid.box]]", "[fluid.transport]\nname = \"none\"\nepsilon = 0.3\n[[fluid.box]]", 13, 11,
+           "`epsilon` belongs to X-SPH", "x_sph");
+    expect("spacing = 0.1", "spacing = 0.1\nrelax_tolerance = 0.01", 10, 19, "nothing is relaxed in this scene",
+           "relax = true");
 }
 
 TEST_CASE("parts that a scene needs together") {

@@ -6,7 +6,7 @@
 
 #include "io/comparison.hpp"
 #include "io/scene_formulas.hpp"
-#include "scratch.hpp"
+#include "tests/io/refusal.hpp"
 
 using namespace aquagraph;
 
@@ -36,12 +36,7 @@ io::Scene read(const std::string& text, const std::vector<std::string>& override
 
 // All that is said of a wrong scene.
 std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    try {
-        read(text, overrides);
-    } catch (const io::SceneError& error) {
-        return error.what();
-    }
-    return {};
+    return test::refusal_by([&] { read(text, overrides); });
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -141,6 +136,8 @@ TEST_CASE("an override is checked like the file, and the message says which it w
     CHECK(contains(refusal(tank, {"fluid.spacing=coarse"}), "--set fluid.spacing=coarse: error"));
     CHECK(contains(refusal(tank, {"fluid.spacing"}), "KEY=VALUE"));
     CHECK(contains(refusal(tank, {"wall[1].slip=none"}), "there is no wall[1]"));
+    CHECK(contains(refusal(tank, {"wall[x].slip=none"}), "there is no wall[x]"));
+    CHECK(contains(refusal(tank, {"wall[].slip=none"}), "there is no wall[]"));
     CHECK(contains(refusal(tank, {"wall.slip=none"}), "wall[0]"));
     CHECK(contains(refusal(tank, {"title.x=1", "fluid.box[0].max=[-1, 1]"}), "--set fluid.box[0].max=[-1, 1]: error"));
     // The file's own mistakes keep their places.
