@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
+
+#include "tasks/stepping.hpp"
 
 namespace aquagraph::engine {
 
@@ -25,10 +28,8 @@ double length(const std::array<double, D>& vector) {
     return std::sqrt(squares);
 }
 
-}  // namespace
-
 template <int D>
-std::string describe(const Model<D>& model, const tasks::SickParticle& sick) {
+std::string describe_particle(const Model<D>& model, const tasks::SickParticle& sick) {
     const fluid::Fluid<D>& fluid = *model.fluid;
     const auto& s = fluid.particles;
     const auto line = [&](std::size_t i) {
@@ -72,7 +73,29 @@ std::string describe(const Model<D>& model, const tasks::SickParticle& sick) {
     return text;
 }
 
-template std::string describe(const Model<2>&, const tasks::SickParticle&);
-template std::string describe(const Model<3>&, const tasks::SickParticle&);
+}  // namespace
+
+template <int D>
+std::string describe(const Model<D>& model, const tasks::TaskError& error) {
+    const Clock& clock = model.clock;
+    try {
+        std::rethrow_exception(error.cause());
+    } catch (const tasks::SickParticle& sick) {
+        return describe_particle(model, sick);
+    } catch (const solid::ConvergenceError&) {
+        if (model.structure)
+            return fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps + 1);
+        return fmt::format(
+            "{} (t = {:.6g} s, step {})\n  likely cause: the coupling is unstable, the load grows from step to step: "
+            "make αs more negative, or lower cfl or ratio; a light body in water needs ρ0 c0 Δt of a cycle well below "
+            "its mass per area, or [coupling] algorithm = \"iterated\"",
+            error.what(), clock.time, clock.steps);
+    } catch (...) {
+        return fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps);
+    }
+}
+
+template std::string describe(const Model<2>&, const tasks::TaskError&);
+template std::string describe(const Model<3>&, const tasks::TaskError&);
 
 }  // namespace aquagraph::engine

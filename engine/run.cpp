@@ -70,6 +70,22 @@ void print_comparisons(std::ostream& out, const std::vector<io::Comparison>& com
     }
 }
 
+// Says what has not gone to its end, and where what there is lies.
+ExitCode exit_code(const RunEnd& end, StopRequest request, long steps, const std::filesystem::path& folder,
+                   std::ostream& err) {
+    switch (end.outcome) {
+        case io::RunOutcome::failed:
+            err << "aquagraph: " << end.message << "\nWhat was computed until then is in " << folder.string() << "\n";
+            return run_failed;
+        case io::RunOutcome::interrupted:
+            err << "aquagraph: " << end.message << "; results kept in " << folder.string()
+                << (steps > 0 ? "; go on with --restart auto\n" : "\n");
+            return request == StopRequest::checkpoint ? stopped : interrupted;
+        default:
+            return success;
+    }
+}
+
 template <int D>
 ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream& out, std::ostream& err) {
     const std::filesystem::path folder =
@@ -137,22 +153,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
         }
     } catch (const tasks::TaskError& error) {
         outcome = io::RunOutcome::failed;
-        try {
-            std::rethrow_exception(error.cause());
-        } catch (const tasks::SickParticle& sick) {
-            message = describe(*model, sick);
-        } catch (const solid::ConvergenceError&) {
-            if (model->structure)
-                message = fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps + 1);
-            else
-                message = fmt::format(
-                    "{} (t = {:.6g} s, step {})\n  likely cause: the coupling is unstable, the load grows from "
-                    "step to step: make αs more negative, or lower cfl or ratio; a light body in water "
-                    "needs ρ0 c0 Δt of a cycle well below its mass per area, or [coupling] algorithm = \"iterated\"",
-                    error.what(), clock.time, clock.steps);
-        } catch (...) {
-            message = fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps);
-        }
+        message = describe(*model, error);
     } catch (const solid::SolverError& error) {
         outcome = io::RunOutcome::failed;
         message = error.what();
@@ -191,16 +192,7 @@ ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream&
         out << fmt::format("{} steps in {:.2f} s on {} threads; results in {}\n", clock.steps, end.figures.wall_seconds,
                            end.figures.threads, folder.string());
     }
-    if (outcome == io::RunOutcome::failed) {
-        err << "aquagraph: " << message << "\nWhat was computed until then is in " << folder.string() << "\n";
-        return run_failed;
-    }
-    if (outcome == io::RunOutcome::interrupted) {
-        err << "aquagraph: " << message << "; results kept in " << folder.string()
-            << (clock.steps > 0 ? "; go on with --restart auto\n" : "\n");
-        return signals.request() == StopRequest::checkpoint ? stopped : interrupted;
-    }
-    return success;
+    return exit_code(end, signals.request(), clock.steps, folder, err);
 }
 
 }  // namespace
