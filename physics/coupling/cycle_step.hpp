@@ -1,11 +1,10 @@
 // The step of a cycle whose length must be known before it begins, because the solid runs beside the fluid (CPS).
 //   fixed      Δt = f Δt_CFL(t_n) with f = 0.8 (thesis (6.4)): a fifth of every step is given away for safety.
 //   predicted  Δt = f min(Δt_CFL, its linear trend at the last step of the cycle) (1 - m), f = 1: the limit hardly
-//   moves
-//              in a few steps, and where it does, it shows in the trend. m is the largest overstep of late: at the end
-//              of each cycle it is known by how much its last step was longer than what was allowed when it began; m
-//              decays by a tenth per cycle, so that a run whose limit jumps about keeps away from it. An overstep of
-//              some percent is no loss of stability: K = 0.375 is half of what Runge-Kutta bears.
+//              moves in a few steps, and where it does, it shows in the trend. m is the largest overstep of late: at
+//              the end of each cycle it is known by how much its last step was longer than what was allowed when it
+//              began; m decays by a tenth per cycle, so that a run whose limit jumps about keeps away from it. An
+//              overstep of some percent is no loss of stability: K = 0.375 is half of what Runge-Kutta bears.
 #pragma once
 #include <algorithm>
 
