@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/engine/scenes.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "tests/coupling/wall_pairs.hpp"
-#include "tests/engine/scenes.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;

@@ -5,7 +5,7 @@
 #include <random>
 #include <tuple>
 
-#include "tests/engine/results_of_run.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;

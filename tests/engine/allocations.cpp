@@ -3,7 +3,7 @@
 
 #include "tasks/task_graph.hpp"
 #include "tests/engine/allocation_count.hpp"
-#include "tests/engine/scenes.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;

@@ -5,6 +5,7 @@
 
 #include "engine/calculix_command.hpp"
 #include "engine/modes_command.hpp"
+#include "tests/engine/body_scenes.hpp"
 #include "tests/engine/results_of_run.hpp"
 
 using namespace aquagraph;
@@ -12,7 +13,7 @@ using namespace aquagraph::test;
 
 namespace {
 
-// The beam of scenes.hpp in motion about a static state: stretched, it swings faster.
+// The beam of body_scenes.hpp in motion about a static state: stretched, it swings faster.
 std::vector<double> frequencies(const std::string& text, int wanted) {
     ScratchFolder folder;
     const io::Scene scene = io::read_scene(folder.write("scene.toml", text));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "tests/engine/model_run.hpp"
 #include "tests/engine/session.hpp"
 
 using namespace aquagraph;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/model.hpp"
 #include "tests/engine/results_of_run.hpp"
 
 using namespace aquagraph;

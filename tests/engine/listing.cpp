@@ -6,7 +6,7 @@
 #include <set>
 
 #include "tasks/dependencies.hpp"
-#include "tests/engine/scenes.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;

@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "engine/model.hpp"
 #include "tests/engine/results_of_run.hpp"
 
 using namespace aquagraph;
@@ -91,12 +92,7 @@ TEST_CASE("a wet set that is no surface is refused with its place in the scene")
     std::ostringstream out, err;
     const std::string text = with(with_mesh(), "\"bottom\", \"right\"]", "\"bottom\", \"rubber\"]");
     const io::Scene scene = io::read_scene(folder.write("scene.toml", text));
-    std::string said;
-    try {
-        engine::make_model<2>(scene);
-    } catch (const io::SceneError& error) {
-        said = error.what();
-    }
+    const std::string said = refusal_by([&] { engine::make_model<2>(scene); });
     const std::size_t line = count(text.substr(0, text.find("\"rubber\"")), "\n") + 1;
     CHECK(said.find("scene.toml:" + std::to_string(line) + ":") != std::string::npos);
     CHECK(said.find("'rubber' is a set of nodes, and no surface") != std::string::npos);
@@ -106,14 +102,9 @@ TEST_CASE("a wet set that is no surface is refused with its place in the scene")
 TEST_CASE("a body that no water can reach is refused with its place in the scene") {
     ScratchFolder folder;
     folder.write("gate.msh", gate_mesh());
-    const auto said = [&](const std::string& text) -> std::string {
+    const auto said = [&](const std::string& text) {
         const io::Scene scene = io::read_scene(folder.write("scene.toml", text));
-        try {
-            engine::make_model<2>(scene);
-        } catch (const io::SceneError& error) {
-            return error.what();
-        }
-        return "";
+        return refusal_by([&] { engine::make_model<2>(scene); });
     };
     const std::string away =
         with(gate, "min = [0.1, 0.0]\nmax = [0.105, 0.079]", "min = [0.7, 0.0]\nmax = [0.705, 0.079]");

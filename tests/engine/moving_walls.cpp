@@ -6,66 +6,13 @@
 #include <limits>
 #include <numbers>
 
-#include "tests/engine/results_of_run.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;
 using doctest::Approx;
 
 namespace {
-
-// Runs the listing of a scene to its end and keeps the model.
-template <int D>
-struct Moved {
-    ScratchFolder folder;
-    io::Scene scene;
-    std::unique_ptr<engine::Model<D>> model;
-    tasks::Executor executor{2};
-
-    explicit Moved(const std::string& text, const std::string& table = {}) : scene(read(text, table)) {
-        model = engine::make_model<D>(scene);
-        const auto listing = engine::coupling_cycle(*model, scene.coupling);
-        executor.execute([&] {
-            engine::start(*model, scene);
-            while (model->clock.time < model->clock.end)
-                for (const tasks::Task& task : listing) task.body();
-        });
-    }
-    io::Scene read(const std::string& text, const std::string& table) {
-        if (!table.empty()) folder.write("motion.csv", table);
-        return io::read_scene(folder.write("scene.toml", text));
-    }
-    geometry::Vec<D> x(std::size_t i) const {
-        geometry::Vec<D> place;
-        for (std::size_t d = 0; d < D; ++d) place[Eigen::Index(d)] = model->fluid->particles.x[d][i];
-        return place;
-    }
-    std::size_t count() const { return model->fluid->particles.count; }
-};
-
-// A metre of water, 0.2 m deep; the piston at its left stands on a floor that goes on behind it.
-const std::string channel = R"(schema_version = 1
-[time]
-end = 0.6
-[domain]
-min = [-0.4, -0.1]
-max = [1.1, 0.6]
-[fluid]
-spacing = 0.02
-sound_speed = 20.0
-[[fluid.box]]
-min = [0.0, 0.0]
-max = [1.0, 0.2]
-[[wall]]
-name = "channel"
-points = [[-0.3, 0.0], [1.0, 0.0], [1.0, 0.5]]
-[[wall]]
-name = "piston"
-points = [[0.0, 0.5], [0.0, 0.0]]
-[wall.motion.translation]
-velocity = [0.25, 0.0]
-ramp = 0.1
-)";
 
 // A closed box, half full.
 const std::string tank = R"(schema_version = 1
@@ -91,7 +38,7 @@ fluid = "inside"
 }  // namespace
 
 TEST_CASE("a piston pushes the water up to the height of the simple wave") {
-    const Moved<2> run(channel);
+    const ModelRun<2> run(piston_channel);
     const double place = 0.25 * (0.6 - 0.05);
     const auto& panels = run.model->walls->panels;
     CHECK(panels.position.back().x() == Approx(place));
@@ -119,7 +66,7 @@ centre = [0.3, 0.0]
 amplitude = 0.2
 period = 0.8
 )";
-    const Moved<2> run(rolling);
+    const ModelRun<2> run(rolling);
     const double angle = 0.2 * std::sin(2 * std::numbers::pi * 0.5 / 0.8);
     const Eigen::Rotation2Dd back(-angle);
     double left = 1, low = 1, high = 0;
@@ -145,7 +92,7 @@ period = 0.8
 TEST_CASE("water carried along by a tank at constant velocity is at rest in it") {
     const auto moving = with(tank, "max = [0.6, 0.2]", "max = [0.6, 0.2]\nvelocity = [0.8, -0.3]") +
                         "[wall.motion.translation]\nvelocity = [0.8, -0.3]\n";
-    const Moved<2> run(moving), rest(tank);
+    const ModelRun<2> run(moving), rest(tank);
     REQUIRE(run.count() == rest.count());
     double worst = 0;
     std::vector<geometry::Vec<2>> place(rest.count());
@@ -183,14 +130,16 @@ open = ["top"]
 [wall.motion]
 table = "motion.csv"
 )";
-    const Moved<3> run(scene, "# of the tank\ntime[s], x[m], y\n-1, -0.5, -0.25\n0, 0, 0\n0.3, 0.15, 0.075\n");
+    const ModelRun<3> run(
+        scene, {{"motion.csv", "# of the tank\ntime[s], x[m], y\n-1, -0.5, -0.25\n0, 0, 0\n0.3, 0.15, 0.075\n"}});
     REQUIRE(run.count() == 8 * 6 * 4);
     for (std::size_t i = 0; i < run.count(); ++i) {
         const geometry::Vec<3> x = run.x(i) - geometry::Vec<3>(0.05, 0.025, 0);
         CHECK((x.array() > 0).all());
         CHECK(std::fabs(run.model->fluid->particles.v[0][i] - 0.5) < 0.1);
     }
-    CHECK_THROWS_WITH_AS(Moved<3>(scene, "time, x\n0, 0\n0.05, 1\n"),
+    const FilesBeside short_table{{"motion.csv", "time, x\n0, 0\n0.05, 1\n"}};
+    CHECK_THROWS_WITH_AS(ModelRun<3>(scene, short_table),
                          doctest::Contains("the table ends at 0.05 s, before the end of the run at 0.1 s"),
                          io::SceneError);
 }

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "engine/diagnostics.hpp"
-#include "tests/engine/results_of_run.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;
@@ -12,101 +11,10 @@ using doctest::Approx;
 
 namespace {
 
-const std::string basin = R"(schema_version = 1
-[time]
-end = 0.2
-[domain]
-min = [-0.5, -0.5]
-max = [1.5, 1.5]
-[fluid]
-spacing = 0.05
-sound_speed = 40
-walls = "normal_flux"
-[[fluid.box]]
-min = [0, 0]
-max = [1, 1]
-[[wall]]
-name = "west"
-points = [[0, 1.5], [0, 0]]
-force = true
-[[wall]]
-name = "bottom"
-points = [[0, 0], [1, 0]]
-force = true
-[[wall]]
-name = "east"
-points = [[1, 0], [1, 1.5]]
-force = true
-)";
-
-// A metre of water, 0.2 m deep; the piston at its left stands on a floor that goes on behind it.
-const std::string channel = R"(schema_version = 1
-[time]
-end = 0.4
-[domain]
-min = [-0.4, -0.1]
-max = [1.1, 0.6]
-[fluid]
-spacing = 0.02
-sound_speed = 20.0
-walls = "normal_flux"
-[[fluid.box]]
-min = [0.0, 0.0]
-max = [1.0, 0.2]
-[[wall]]
-name = "channel"
-points = [[-0.3, 0.0], [1.0, 0.0], [1.0, 0.5]]
-[[wall]]
-name = "piston"
-points = [[0.0, 0.5], [0.0, 0.0]]
-[wall.motion.translation]
-velocity = [0.25, 0.0]
-ramp = 0.1
-)";
-
-// Runs a scene's listing to its end; the diagnostics stand where they belong, after each step.
-template <int D>
-struct Run {
-    ScratchFolder folder;
-    io::Scene scene;
-    std::unique_ptr<engine::Model<D>> model;
-    std::vector<engine::Diagnostic> diagnostics;
-    tasks::Executor executor{2};
-
-    explicit Run(const std::string& text) : scene(io::read_scene(folder.write("scene.toml", text))) {
-        model = engine::make_model<D>(scene);
-        diagnostics = engine::make_diagnostics(scene, *model);
-        const auto listing = engine::coupling_cycle(*model, scene.coupling);
-        executor.execute([&] {
-            engine::start(*model, scene);
-            for (const tasks::Task& task : engine::first_evaluation(*model)) task.body();
-            while (model->clock.time < model->clock.end)
-                for (const tasks::Task& task : listing) task.body();
-            for (const engine::Diagnostic& diagnostic : diagnostics) diagnostic.task.body();
-        });
-    }
-    double fastest() const {
-        const auto& s = model->fluid->particles;
-        double v2 = 0;
-        for (std::size_t i = 0; i < s.count; ++i) v2 = std::max(v2, s.v[0][i] * s.v[0][i] + s.v[1][i] * s.v[1][i]);
-        return std::sqrt(v2);
-    }
-    std::vector<double> row() const {
-        std::vector<double> row;
-        for (const engine::Diagnostic& diagnostic : diagnostics) diagnostic.part.append(row);
-        return row;
-    }
-};
-
-std::string error_of(const std::string& text) {
-    ScratchFolder folder;
-    try {
-        io::read_scene(folder.write("scene.toml", text));
-    } catch (const io::SceneError& error) {
-        return error.what();
-    }
-    return "";
+std::string with_normal_flux(const std::string& scene) {
+    return with(scene, "[[fluid.box]]", "walls = \"normal_flux\"\n[[fluid.box]]");
 }
+const std::string basin = with_normal_flux(with(walled_basin, "end = 0.02", "end = 0.2"));
 
 }  // namespace
 
@@ -114,7 +22,7 @@ TEST_CASE("still water between walls of normal fluxes, whatever kernel and integ
     const double weight = 1000 * 9.81, root = std::sqrt(9.81);
     const auto check = [&](const std::string& choice, double most) {
         CAPTURE(choice);
-        const Run<2> run(with(basin, "walls = \"normal_flux\"", "walls = \"normal_flux\"\n" + choice));
+        const ModelRun<2> run(with(basin, "walls = \"normal_flux\"", "walls = \"normal_flux\"\n" + choice));
         const double fastest = run.fastest() / root;
         MESSAGE(choice << ": fastest " << fastest);
         CHECK(fastest < most);
@@ -134,8 +42,9 @@ TEST_CASE("still water between walls of normal fluxes, whatever kernel and integ
 }
 
 TEST_CASE("a piston of normal fluxes pushes the water along") {
-    const Run<2> run(channel), ghosts(with(channel, "walls = \"normal_flux\"", ""));
-    const auto level_near_piston = [](const Run<2>& of) {  // momentum and mass centre
+    const std::string channel = with(piston_channel, "end = 0.6", "end = 0.4");
+    const ModelRun<2> run(with_normal_flux(channel)), ghosts(channel);
+    const auto level_near_piston = [](const ModelRun<2>& of) {  // momentum and mass centre
         const auto& s = of.model->fluid->particles;
         double momentum = 0, centre = 0, mass = 0;
         for (std::size_t i = 0; i < s.count; ++i) {
@@ -204,7 +113,7 @@ points = [[1.8, 0.2], [-0.3, 0.2]]
         double velocity, friction;
     };
     const auto errors = [&](const std::string& spacing) -> Errors {
-        const Run<2> run(with(scene, "spacing = 0.02", "spacing = " + spacing));
+        const ModelRun<2> run(with(scene, "spacing = 0.02", "spacing = " + spacing));
         const auto& s = run.model->fluid->particles;
         double error2 = 0, scale2 = 0;
         for (std::size_t i = 0; i < s.count; ++i) {
@@ -226,7 +135,7 @@ points = [[1.8, 0.2], [-0.3, 0.2]]
 TEST_CASE("what walls of normal fluxes do not go with is said, with what to do") {
     const auto expect = [](const std::string& old, const std::string& replacement, const std::string& message) {
         CAPTURE(message);
-        const std::string error = error_of(with(basin, old, replacement));
+        const std::string error = refusal(with(basin, old, replacement));
         CHECK(error.find(message) != std::string::npos);
         CHECK(error.find("ghosts") != std::string::npos);
         CHECK(error.find("scene.toml:10:") != std::string::npos);
@@ -235,14 +144,14 @@ TEST_CASE("what walls of normal fluxes do not go with is said, with what to do")
     expect("[[fluid.box]]", "[fluid.scheme]\nname = \"delta_sph\"\n[[fluid.box]]", "need Riemann-SPH");
     expect("[[fluid.box]]", "[output]\nenergy_ledger = true\n[[fluid.box]]", "energy ledger");
     expect("[[fluid.box]]", "[fluid.viscosity]\ndynamic = 1\n[[fluid.box]]", "Monaghan and Gingold");
-    CHECK(error_of(with(basin, "[[fluid.box]]", "[fluid.viscosity]\ndynamic = 1\noperator = \"morris\"\n[[fluid.box]]"))
+    CHECK(refusal(with(basin, "[[fluid.box]]", "[fluid.viscosity]\ndynamic = 1\noperator = \"morris\"\n[[fluid.box]]"))
               .empty());
-    CHECK(error_of(with(with(basin, "max = [1.5, 1.5]\n[fluid]", "max = [1.5, 1.5]\nperiodic = [\"x\"]\n[fluid]"),
-                        "[[fluid.box]]", "[[fluid.box]]"))
+    CHECK(refusal(with(with(basin, "max = [1.5, 1.5]\n[fluid]", "max = [1.5, 1.5]\nperiodic = [\"x\"]\n[fluid]"),
+                       "[[fluid.box]]", "[[fluid.box]]"))
               .find("no images in a periodic domain") != std::string::npos);
     const std::string coupled = with(gate, "sound_speed = 30.0", "sound_speed = 30.0\nwalls = \"normal_flux\"");
-    CHECK(error_of(coupled).empty());
-    CHECK(error_of(with(coupled, "ratio = 1", "load = \"energy_conservative\"")).find("does not know the work") !=
+    CHECK(refusal(coupled).empty());
+    CHECK(refusal(with(coupled, "ratio = 1", "load = \"energy_conservative\"")).find("does not know the work") !=
           std::string::npos);
-    CHECK(error_of(with(coupled, "\"cps\"", "\"iterated\"")).find("go back to the start") != std::string::npos);
+    CHECK(refusal(with(coupled, "\"cps\"", "\"iterated\"")).find("go back to the start") != std::string::npos);
 }

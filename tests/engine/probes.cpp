@@ -57,21 +57,7 @@ point = [0.5, 1.4]
 history_interval = 0.005
 )";
 
-const std::string falling = R"(schema_version = 1
-[time]
-end = 0.05
-[domain]
-min = [-1, -1, -1]
-max = [2, 2, 2]
-[fluid]
-spacing = 0.05
-sound_speed = 20
-support_ratio = 2.6
-initial_pressure = "zero"
-[[fluid.box]]
-min = [0, 0, 0]
-max = [0.5, 0.4, 0.3]
-[[probe]]
+const std::string falling = falling_block + R"([[probe]]
 name = "heart"
 quantity = "velocity"
 point = [0.25, 0.2, 0.15]
@@ -123,29 +109,19 @@ TEST_CASE("probes in falling water") {
 
 TEST_CASE("probes have the same bits on 1, 2 and 4 threads") {
     for (const std::string& text : {tank, falling}) {
-        const auto rows = [&](int threads) { return contents(Finished(text, threads).results.path / "history.csv"); };
-        const std::string reference = rows(1);
-        CHECK(rows(2) == reference);
-        CHECK(rows(4) == reference);
+        const std::string reference = history_text(text, 1);
+        CHECK(history_text(text, 2) == reference);
+        CHECK(history_text(text, 4) == reference);
     }
 }
 
 TEST_CASE("a scene without probes has no task for them") {
-    const std::string none = falling.substr(0, falling.find("[[probe]]"));
-    CHECK_FALSE(Finished(none).results.summary().at("tasks").contains("probes"));
+    CHECK_FALSE(Finished(falling_block).results.summary().at("tasks").contains("probes"));
 }
 
 TEST_CASE("probes that cannot be are refused with their place") {
-    const auto refused = [](const std::string& text) -> std::string {
-        try {
-            Finished run(text);
-        } catch (const io::SceneError& error) {
-            return error.what();
-        }
-        return "not refused";
-    };
     const auto says = [&](const std::string& text, std::string_view place, std::string_view what) {
-        const std::string error = refused(text);
+        const std::string error = refusal_by([&] { Finished run(text); });
         CAPTURE(error);
         CHECK(error.find(place) != std::string::npos);
         CHECK(error.find(what) != std::string::npos);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "engine/run.hpp"
 #include "io/hdf5_file.hpp"
@@ -58,17 +59,26 @@ inline std::string numbers_of(const io::Hdf5File& file, std::vector<std::string>
     return bits;
 }
 
+// Files that lie beside a scene: name and content.
+using FilesBeside = std::vector<std::pair<std::string, std::string>>;
+
 struct Finished {
     ScratchFolder scratch;
     ResultsFolder results;
     engine::ExitCode code;
     std::ostringstream out, err;
 
-    explicit Finished(const std::string& text, int threads = 2) {
+    explicit Finished(const std::string& text, int threads = 2, const FilesBeside& files = {}) {
+        for (const auto& [name, content] : files) scratch.write(name, content);
         const io::Scene scene = io::read_scene(scratch.write("scene.toml", text));
         results.path = scratch / "results";
         code = engine::run(scene, {.folder = results.path, .trace = {}, .threads = threads, .quiet = true}, out, err);
     }
 };
+
+// The bits of a run's history, on so many threads.
+inline std::string history_text(const std::string& text, int threads) {
+    return contents(Finished(text, threads).results.path / "history.csv");
+}
 
 }  // namespace aquagraph::test

@@ -1,20 +1,10 @@
 // Small scenes that the tests of the engine, of the coupling and of the program share, written as a user would write
-// them, and what it takes to change, read and build them.
+// them.
 #pragma once
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <memory>
-#include <stdexcept>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "engine/listings.hpp"
-#include "engine/model.hpp"
-#include "io/scene_reader.hpp"
-#include "tasks/executor.hpp"
-#include "tests/io/scratch.hpp"
+#include "tests/io/refusal.hpp"
+#include "tests/text.hpp"
 
 namespace aquagraph::test {
 
@@ -133,6 +123,77 @@ frame_interval = 0.02
 history_interval = 0.01
 )";
 
+// Still water between three walls, 1 m by 1 m.
+inline const std::string walled_basin = R"(schema_version = 1
+[time]
+end = 0.02
+[domain]
+min = [-0.5, -0.5]
+max = [1.5, 1.5]
+[fluid]
+spacing = 0.05
+sound_speed = 40
+[[fluid.box]]
+min = [0, 0]
+max = [1, 1]
+[[wall]]
+name = "west"
+points = [[0, 1.5], [0, 0]]
+force = true
+[[wall]]
+name = "bottom"
+points = [[0, 0], [1, 0]]
+force = true
+[[wall]]
+name = "east"
+points = [[1, 0], [1, 1.5]]
+force = true
+)";
+
+// A metre of water, 0.2 m deep; the piston at its left stands on a floor that goes on behind it.
+inline const std::string piston_channel = R"(schema_version = 1
+[time]
+end = 0.6
+[domain]
+min = [-0.4, -0.1]
+max = [1.1, 0.6]
+[fluid]
+spacing = 0.02
+sound_speed = 20.0
+[[fluid.box]]
+min = [0.0, 0.0]
+max = [1.0, 0.2]
+[[wall]]
+name = "channel"
+points = [[-0.3, 0.0], [1.0, 0.0], [1.0, 0.5]]
+[[wall]]
+name = "piston"
+points = [[0.0, 0.5], [0.0, 0.0]]
+[wall.motion.translation]
+velocity = [0.25, 0.0]
+ramp = 0.1
+)";
+
+// Water in space that falls freely: nothing acts on it but gravity.
+inline const std::string falling_block = R"(schema_version = 1
+title = "Falling block"
+[time]
+end = 0.05
+[domain]
+min = [-1, -1, -1]
+max = [2, 2, 2]
+[fluid]
+spacing = 0.05
+sound_speed = 20
+support_ratio = 2.6
+initial_pressure = "zero"
+[[fluid.box]]
+min = [0, 0, 0]
+max = [0.5, 0.4, 0.3]
+[output]
+frame_interval = 0.025
+)";
+
 // Water of 1 m by 1 m with a free elastic body in it and nothing else anywhere: half_width by half_height about the
 // middle, both whole numbers of Δx = 25 mm; bigger elements make coarser panels.
 inline std::string surrounded_body(int half_width, int half_height, int columns, int rows) {
@@ -170,90 +231,9 @@ poissons_ratio = 0.3
 inline const std::string strip = surrounded_body(12, 1, 12, 1);
 inline const std::string coarse_strip = surrounded_body(12, 1, 6, 1);
 
-// An elastic block on its own: no water.
-inline const std::string beam = R"(schema_version = 1
-title = "Beam"
-[time]
-end = 0.01
-[domain]
-min = [0.0, 0.0]
-max = [1.0, 1.0]
-[solid]
-name = "beam"
-[solid.box]
-min = [0.0, 0.0]
-max = [1.0, 0.1]
-elements = [10, 2]
-[solid.material]
-density = 1000.0
-youngs_modulus = 1.0e7
-poissons_ratio = 0.3
-[solid.scheme]
-step = 0.001
-[[solid.clamp]]
-set = "left"
-)";
-
-// `text` with the first `from` replaced. A test that changes nothing would test nothing: throws if `from` is missing.
-inline std::string with(std::string text, std::string_view from, std::string_view to) {
-    const std::size_t at = text.find(from);
-    if (at == std::string::npos) throw std::logic_error("the scene holds no '" + std::string(from) + "'");
-    return text.replace(at, from.size(), to);
-}
-
 inline std::string with_coupling(const std::string& text, const std::string& algorithm, int ratio) {
     return with(text, "algorithm = \"cps\"\nratio = 1\n",
                 "algorithm = \"" + algorithm + "\"\nratio = " + std::to_string(ratio) + "\n");
 }
-
-inline std::string contents(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw std::runtime_error("cannot read " + file.filename().string());
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-inline std::size_t count(std::string_view text, std::string_view part) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size()))
-        ++found;
-    return found;
-}
-
-// A scene built but not run: its parts and the listing of a cycle, to be looked at or run task by task.
-struct Built {
-    ScratchFolder folder;
-    io::Scene scene;
-    std::unique_ptr<engine::Model<2>> model;
-    std::vector<tasks::Task> listing;
-    tasks::Executor executor{2};
-
-    explicit Built(const std::string& text)
-        : scene(io::read_scene(folder.write("scene.toml", text))),
-          model(engine::make_model<2>(scene)),
-          listing(engine::coupling_cycle(*model, scene.coupling)) {}
-
-    void start() {
-        executor.execute([&] { engine::start(*model, scene); });
-    }
-    std::size_t place(const std::string& name) const {
-        for (std::size_t k = 0; k < listing.size(); ++k)
-            if (listing[k].name == name) return k;
-        throw std::out_of_range("no task '" + name + "' in the listing");
-    }
-    bool has(const std::string& name) const {
-        for (const tasks::Task& task : listing)
-            if (task.name == name) return true;
-        return false;
-    }
-    void run(const std::string& name) {
-        executor.execute([&] { listing[place(name)].body(); });
-    }
-    // The fluid's load on the solid as things stand: no step is made.
-    void compute_loads() {
-        for (const char* name : {"neighbour search (step 1)", "wall motion (interface)", "ghosts (interface)",
-                                 "gradients (interface)", "ghost gradients (interface)", "interface loads"})
-            run(name);
-    }
-};
 
 }  // namespace aquagraph::test

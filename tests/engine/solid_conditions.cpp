@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/engine/body_scenes.hpp"
 #include "tests/engine/results_of_run.hpp"
 
 using namespace aquagraph;
@@ -12,28 +13,13 @@ using namespace aquagraph::test;
 namespace {
 
 // A block of 0.2 m by 0.1 m of unit depth.
-std::string block(const std::string& scheme, const std::string& gravity, double end) {
-    return R"(schema_version = 1
-gravity = )" +
-           gravity + R"(
-[time]
-end = )" + std::to_string(end) +
-           R"(
-[domain]
-min = [0.0, 0.0]
-max = [1.0, 1.0]
-[solid]
-[solid.box]
-min = [0.0, 0.0]
-max = [0.2, 0.1]
-elements = [4, 2]
-[solid.material]
-law = "linear"
-density = 1000.0
-youngs_modulus = 1.0e7
-poissons_ratio = 0.0
-[solid.scheme]
-)" + scheme;
+std::string block(const std::string& scheme, const std::string& gravity, const std::string& end) {
+    return elastic_box({.corner = "0.2, 0.1",
+                        .elements = "4, 2",
+                        .end = end,
+                        .gravity = gravity,
+                        .poissons_ratio = "0.0",
+                        .scheme = scheme});
 }
 
 // A run and the columns it has left.
@@ -65,7 +51,7 @@ class RunOfText {
 }  // namespace
 
 TEST_CASE("prescribed motion: a bar is drawn out, the force that does it and the force that holds it") {
-    const RunOfText run(block("name = \"static\"\nstep = 0.25\n", "[0.0, 0.0]", 1.0) + R"(
+    const RunOfText run(block("name = \"static\"\nstep = 0.25\n", "", "1.0") + R"(
 [[solid.clamp]]
 name = "wall"
 set = "left"
@@ -87,7 +73,7 @@ point = [0.2, 0.0]
 }
 
 TEST_CASE("a harmonic motion of the root, in a dynamic run, does the work that the body shows") {
-    const RunOfText run(block("alpha = 0.0\nstep = 1e-4\n", "[0.0, 0.0]", 0.02) + R"(
+    const RunOfText run(block("alpha = 0.0\nstep = 1e-4\n", "", "0.02") + R"(
 [[solid.motion]]
 set = "left"
 along = "x"
@@ -108,7 +94,7 @@ point = [0.0, 0.0]
 }
 
 TEST_CASE("follower pressure on all sides: the block shrinks as its bulk modulus says") {
-    const RunOfText run(block("name = \"static\"\n", "[0.0, 0.0]", 1.0) + R"(
+    const RunOfText run(block("name = \"static\"\n", "", "1.0") + R"(
 [[solid.clamp]]
 set = "left"
 fixed = ["x"]
@@ -130,7 +116,7 @@ point = [0.2, 0.1]
 }
 
 TEST_CASE("a rigid face, loaded: moves without turning under a force, and the column of what is prescribed") {
-    const RunOfText run(block("name = \"static\"\n", "[0.0, 0.0]", 1.0) + R"(
+    const RunOfText run(block("name = \"static\"\n", "", "1.0") + R"(
 [[solid.clamp]]
 set = "left"
 [[solid.rigid_body]]
@@ -157,7 +143,7 @@ rate = 400.0
 }
 
 TEST_CASE("a block let down on the ground: contact bears its weight, on its area; the ground comes up and lifts it") {
-    const std::string scene = block("name = \"static\"\n", "[0.0, -10.0]", 1.0) + R"(
+    const std::string scene = block("name = \"static\"\n", "0.0, -10.0", "1.0") + R"(
 [[solid.clamp]]
 set = "left"
 fixed = ["x"]
@@ -185,7 +171,7 @@ point = [0.1, 0.0]
 }
 
 TEST_CASE("damping from a scene brings a swing to rest, and its column says what it took") {
-    const std::string scene = block("alpha = 0.0\nstep = 2e-4\n", "[10.0, 0.0]", 0.1) + R"(
+    const std::string scene = block("alpha = 0.0\nstep = 2e-4\n", "10.0, 0.0", "0.1") + R"(
 [[solid.clamp]]
 set = "left"
 [[solid.track]]
@@ -203,7 +189,7 @@ stiffness = 1e-4
 }
 
 TEST_CASE("central differences from a scene find their step; a longer one is refused with the largest") {
-    const std::string scene = block("name = \"central_difference\"\n", "[10.0, 0.0]", 0.01) + R"(
+    const std::string scene = block("name = \"central_difference\"\n", "10.0, 0.0", "0.01") + R"(
 [[solid.clamp]]
 set = "left"
 [[solid.track]]
@@ -211,62 +197,35 @@ name = "end"
 point = [0.2, 0.05]
 )";
     const RunOfText run(scene);
-    std::string implicit = scene;
-    implicit.replace(implicit.find("name = \"central_difference\""), 27, "alpha = 0.0\nstep = 1e-5");
-    const RunOfText reference(implicit);
+    const std::string named = "name = \"central_difference\"";
+    const RunOfText reference(with(scene, named, "alpha = 0.0\nstep = 1e-5"));
     CHECK(run.largest("end_x") == doctest::Approx(reference.largest("end_x")).epsilon(0.01));
     CHECK(std::abs(run.last("solid_energy_residual")) < 0.02 * run.largest("solid_strain_energy"));
-    std::string longer = scene;
-    longer.replace(longer.find("name = \"central_difference\""), 27, "name = \"central_difference\"\nstep = 1.0");
-    CHECK_THROWS_WITH_AS(Finished{longer}, doctest::Contains("central differences are stable up to a step of"),
-                         io::SceneError);
+    CHECK_THROWS_WITH_AS(Finished(with(scene, named, named + "\nstep = 1.0")),
+                         doctest::Contains("central differences are stable up to a step of"), io::SceneError);
 }
 
 TEST_CASE("cords in a layer: stiff along them when pulled") {
     const auto stretched = [](const std::string& angle) {
-        return RunOfText(R"(schema_version = 1
-gravity = [0.0, 0.0, 0.0]
-[time]
-end = 1.0
-[domain]
-min = [0.0, 0.0, 0.0]
-max = [1.0, 1.0, 1.0]
-[solid]
-[solid.box]
-min = [0.0, 0.0, 0.0]
-max = [0.2, 0.1, 0.01]
-elements = [2, 2, 2]
-[solid.material]
-law = "neo_hookean"
-density = 1000.0
-youngs_modulus = 1.0e6
-poissons_ratio = 0.45
-[[solid.cords]]
+        const std::string rubber = elastic_box({.corner = "0.2, 0.1, 0.01",
+                                                .elements = "2, 2, 2",
+                                                .law = "neo_hookean",
+                                                .youngs_modulus = "1.0e6",
+                                                .poissons_ratio = "0.45"});
+        const RunOfText run(rubber + sliding_faces + R"([[solid.cords]]
 modulus = 1.0e9
 section = 1.0e-6
 spacing = 1.0e-3
 thickness = 0.005
 angles = [)" + angle + R"(]
-[solid.scheme]
-name = "static"
-[[solid.clamp]]
-set = "left"
-fixed = ["x"]
-[[solid.clamp]]
-set = "front"
-fixed = ["y"]
-[[solid.clamp]]
-set = "bottom"
-fixed = ["z"]
 [[solid.traction]]
 surface = "right"
 value = [1.0e4, 0.0, 0.0]
 [[solid.track]]
 name = "end"
 point = [0.2, 0.0, 0.0]
-)")
-                   .last("end_x") /
-               0.2;
+)");
+        return run.last("end_x") / 0.2;
     };
     // E + E_c A/(s t) along them; nothing across them, where rubber is pushed together.
     CHECK(stretched("0.0") == doctest::Approx(1e4 / (1e6 + 1e9 * 1e-6 / (1e-3 * 0.005))).epsilon(0.02));
@@ -274,7 +233,7 @@ point = [0.2, 0.0, 0.0]
 }
 
 TEST_CASE("a body that is thrown flies, and its rigid rim with it; where it is clamped it stays") {
-    const std::string thrown = block("alpha = 0.0\nstep = 1e-3\n", "[0.0, -10.0]", 0.1) + R"(
+    const std::string thrown = block("alpha = 0.0\nstep = 1e-3\n", "0.0, -10.0", "0.1") + R"(
 [[solid.rigid_body]]
 name = "plate"
 set = "right"
@@ -307,20 +266,16 @@ TEST_CASE("the film of a body with a hole draws two closed lines, not one throug
                         std::to_string(a + 5) + " " + std::to_string(a + 4) + "\n";
         }
     elements += std::to_string(number) + " 1 2 1 1 1 2\n";
-    ScratchFolder folder;
-    folder.write("frame.msh",
-                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"foot\"\n2 2 \"all\"\n"
-                 "$EndPhysicalNames\n$Nodes\n" +
-                     nodes + "$EndNodes\n$Elements\n" + elements + "$EndElements\n");
-    std::string scene = block("name = \"static\"\n", "[0.0, -1.0]", 1.0);
-    const auto box = scene.find("[solid.box]"), end = scene.find("[solid.material]");
-    scene.replace(box, end - box, "mesh = \"frame.msh\"\n");
-    scene += "[[solid.clamp]]\nset = \"foot\"\n";
-    const io::Scene read = io::read_scene(folder.write("scene.toml", scene));
-    std::ostringstream out, err;
-    REQUIRE(engine::run(read, {.folder = folder / "results", .trace = {}, .threads = 1, .quiet = true}, out, err) ==
-            engine::success);
-    const std::string report = contents(folder / "results" / "report.html");
+    const std::string mesh =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"foot\"\n2 2 \"all\"\n"
+        "$EndPhysicalNames\n$Nodes\n" +
+        nodes + "$EndNodes\n$Elements\n" + elements + "$EndElements\n";
+    const std::string scene =
+        with(block("name = \"static\"\n", "0.0, -1.0", "1.0"),
+             "[solid.box]\nmin = [0.0, 0.0]\nmax = [0.2, 0.1]\nelements = [4, 2]\n", "mesh = \"frame.msh\"\n");
+    const Finished run(scene + "[[solid.clamp]]\nset = \"foot\"\n", 1, {{"frame.msh", mesh}});
+    REQUIRE(run.code == engine::success);
+    const std::string report = run.results.report();
     const auto outlines = report.find("\"outlines\":[[");
     REQUIRE(outlines != std::string::npos);
     const std::string frame = report.substr(outlines, report.find("]]", outlines) - outlines);

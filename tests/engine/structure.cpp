@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/engine/body_scenes.hpp"
 #include "tests/engine/results_of_run.hpp"
 
 using namespace aquagraph;
@@ -12,27 +13,8 @@ using namespace aquagraph::test;
 namespace {
 
 // A bar of 1 m by 0.1 m (by 0.2 m), pulled at its right end along x; its sides free to shrink.
-const std::string bar_2d = R"(schema_version = 1
-gravity = [0.0, 0.0]
-[time]
-end = 1.0
-[domain]
-min = [0.0, 0.0]
-max = [1.0, 0.1]
-[solid]
-plane = "stress"
-[solid.box]
-min = [0.0, 0.0]
-max = [1.0, 0.1]
-elements = [4, 1]
-[solid.material]
-law = "linear"
-density = 1000.0
-youngs_modulus = 1.0e7
-poissons_ratio = 0.3
-[solid.scheme]
-name = "static"
-[[solid.clamp]]
+const std::string bar_2d =
+    elastic_box({.corner = "1.0, 0.1", .elements = "4, 1", .solid = "plane = \"stress\"\n"}) + R"([[solid.clamp]]
 set = "left"
 fixed = ["x"]
 [[solid.clamp]]
@@ -46,36 +28,8 @@ name = "tip"
 point = [1.0, 0.1]
 )";
 
-const std::string bar_3d = R"(schema_version = 1
-gravity = [0.0, 0.0, 0.0]
-[time]
-end = 1.0
-[domain]
-min = [0.0, 0.0, 0.0]
-max = [1.0, 0.1, 0.2]
-[solid]
-name = "bar"
-[solid.box]
-min = [0.0, 0.0, 0.0]
-max = [1.0, 0.1, 0.2]
-elements = [4, 1, 2]
-[solid.material]
-law = "linear"
-density = 1000.0
-youngs_modulus = 1.0e7
-poissons_ratio = 0.3
-[solid.scheme]
-name = "static"
-[[solid.clamp]]
-set = "left"
-fixed = ["x"]
-[[solid.clamp]]
-set = "front"
-fixed = ["y"]
-[[solid.clamp]]
-set = "bottom"
-fixed = ["z"]
-[[solid.traction]]
+const std::string bar_3d = elastic_box({.corner = "1.0, 0.1, 0.2", .elements = "4, 1, 2"}) + sliding_faces +
+                           R"([[solid.traction]]
 surface = "right"
 value = [1.0e4, 0.0, 0.0]
 [[solid.track]]
@@ -83,26 +37,14 @@ name = "tip"
 point = [1.0, 0.1, 0.2]
 )";
 
-// A free block of 200 kg, in two dimensions per metre of depth.
-const std::string block = R"(schema_version = 1
-gravity = [0.0, 0.0, 0.0]
-[time]
-end = 0.5
-[domain]
-min = [0.0, 0.0, 0.0]
-max = [1.0, 1.0, 1.0]
-[solid]
-[solid.box]
-min = [0.0, 0.0, 0.0]
-max = [1.0, 0.5, 0.4]
-elements = [2, 1, 1]
-[solid.material]
-density = 1000.0
-youngs_modulus = 1.0e9
-poissons_ratio = 0.3
-[solid.scheme]
-step = 0.0125
-[[solid.traction]]
+// A free block of 200 kg.
+const std::string block = elastic_box({.corner = "1.0, 0.5, 0.4",
+                                       .elements = "2, 1, 1",
+                                       .end = "0.5",
+                                       .law = "saint_venant_kirchhoff",
+                                       .youngs_modulus = "1.0e9",
+                                       .scheme = "step = 0.0125\n"}) +
+                          R"([[solid.traction]]
 surface = "left"
 value = [1000.0, 0.0, 0.0]
 factor = "6*t"
@@ -116,10 +58,6 @@ point = [0.5, 0.25, 0.2]
 [output]
 frame_interval = 0.25
 )";
-
-std::string without(const std::string& text, std::string_view part) {
-    return with(text, part, "");
-}
 
 }  // namespace
 
@@ -151,33 +89,24 @@ TEST_CASE("Mooney-Rivlin rubber under a small pull has the modulus 6 (C10 + C01)
 }
 
 TEST_CASE("a measured curve: a strip pulled as far as its table says") {
-    ScratchFolder folder;
-    folder.write("curve.csv", "strain,stress[Pa]\n0,0\n0.1,0.8e4\n0.2,1.4e4\n0.4,2.2e4\n");
     std::string scene =
         with(bar_3d, "law = \"linear\"\ndensity = 1000.0\nyoungs_modulus = 1.0e7\npoissons_ratio = 0.3",
              "law = \"uniaxial_curve\"\ndensity = 1000.0\ncurve = \"curve.csv\"\npoissons_ratio = 0.49");
     scene = with(scene, "value = [1.0e4, 0.0, 0.0]", "value = [1.4e4, 0.0, 0.0]");
-    const io::Scene read = io::read_scene(folder.write("scene.toml", scene));
-    std::ostringstream out, err;
-    REQUIRE(engine::run(read, {.folder = folder / "results", .trace = {}, .threads = 1, .quiet = true}, out, err) ==
-            engine::success);
-    CHECK(io::read_history(folder / "results" / "history.csv").column("tip_x").back() ==
-          doctest::Approx(0.2).epsilon(0.02));
+    const Finished run(scene, 1, {{"curve.csv", "strain,stress[Pa]\n0,0\n0.1,0.8e4\n0.2,1.4e4\n0.4,2.2e4\n"}});
+    REQUIRE(run.code == engine::success);
+    CHECK(run.results.history().column("tip_x").back() == doctest::Approx(0.2).epsilon(0.02));
 }
 
 TEST_CASE("steps of a static run follow the loads in time: a table and a formula of the same curve") {
-    ScratchFolder folder;
     const std::string stepped = with(bar_2d, "name = \"static\"", "name = \"static\"\nstep = 0.125");
     const Finished formula(
         with(stepped, "value = [1.0e4, 0.0]\n", "value = [1.0e4, 0.0]\nfactor = \"t < 0.5 ? 2*t : 2 - 2*t\"\n"));
     REQUIRE(formula.code == engine::success);
-    folder.write("tent.csv", "time,factor\n0,0\n0.5,1\n1,0\n");
-    const io::Scene scene = io::read_scene(folder.write(
-        "scene.toml", with(stepped, "value = [1.0e4, 0.0]\n", "value = [1.0e4, 0.0]\ntable = \"tent.csv\"\n")));
-    std::ostringstream out, err;
-    REQUIRE(engine::run(scene, {.folder = folder / "results", .trace = {}, .threads = 1, .quiet = true}, out, err) ==
-            engine::success);
-    const io::History a = formula.results.history(), b = io::read_history(folder / "results" / "history.csv");
+    const Finished table(with(stepped, "value = [1.0e4, 0.0]\n", "value = [1.0e4, 0.0]\ntable = \"tent.csv\"\n"), 1,
+                         {{"tent.csv", "time,factor\n0,0\n0.5,1\n1,0\n"}});
+    REQUIRE(table.code == engine::success);
+    const io::History a = formula.results.history(), b = table.results.history();
     REQUIRE(a.rows() == 9);
     REQUIRE(b.rows() == 9);
     for (std::size_t k = 0; k < 9; ++k) {
@@ -280,16 +209,10 @@ TEST_CASE("parts of a mesh file of other materials: springs in a row, by a Gmsh 
     scene = with(scene, "youngs_modulus = 2.0e7\npoissons_ratio = 0.3", "youngs_modulus = 2.0e7\npoissons_ratio = 0.0");
     for (const char* name : {"body.msh", "body.inp"}) {
         CAPTURE(name);
-        ScratchFolder folder;
-        folder.write("body.msh", gmsh);
-        folder.write("body.inp", deck);
-        const io::Scene read = io::read_scene(
-            folder.write("scene.toml", with(scene, "[solid]\n", "[solid]\nmesh = \"" + std::string(name) + "\"\n")));
-        std::ostringstream out, err;
-        REQUIRE(engine::run(read, {.folder = folder / "results", .trace = {}, .threads = 1, .quiet = true}, out, err) ==
-                engine::success);
-        const io::History history = io::read_history(folder / "results" / "history.csv");
-        CHECK(history.column("end_x").back() == doctest::Approx(1e-3 * 1.5).epsilon(1e-9));
+        const Finished run(with(scene, "[solid]\n", "[solid]\nmesh = \"" + std::string(name) + "\"\n"), 1,
+                           {{"body.msh", gmsh}, {"body.inp", deck}});
+        REQUIRE(run.code == engine::success);
+        CHECK(run.results.history().column("end_x").back() == doctest::Approx(1e-3 * 1.5).epsilon(1e-9));
     }
 }
 

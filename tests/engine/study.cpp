@@ -8,6 +8,7 @@
 #include "engine/study.hpp"
 #include "engine/study_report.hpp"
 #include "io/atomic_file.hpp"
+#include "tests/engine/body_scenes.hpp"
 #include "tests/engine/scenes.hpp"
 
 using namespace aquagraph;
@@ -93,14 +94,9 @@ std::size_t lines_with(const std::string& text, const std::string& what) {
     return found;
 }
 
-std::string refusal(const std::string& study) {
+std::string refused(const std::string& study) {
     const Bench bench(study);
-    try {
-        io::read_study(bench.file);
-    } catch (const io::SceneError& error) {
-        return error.what();
-    }
-    return {};
+    return refusal_by([&] { io::read_study(bench.file); });
 }
 
 }  // namespace
@@ -225,15 +221,15 @@ TEST_CASE("observed order") {
 }
 
 TEST_CASE("mistakes in a study are named with their place") {
-    CHECK(refusal(matrix).empty());
-    CHECK(refusal(with(matrix, "resolutions = [0.2, 0.1]", "resolutions = [0.1, 0.2]")).find("coarse to fine") !=
+    CHECK(refused(matrix).empty());
+    CHECK(refused(with(matrix, "resolutions = [0.2, 0.1]", "resolutions = [0.1, 0.2]")).find("coarse to fine") !=
           std::string::npos);
-    CHECK(refusal(with(matrix, "resolutions", "resolution")).find("did you mean `resolutions`") != std::string::npos);
-    CHECK(refusal(with(matrix, "patch/scene", "batch/scene")).find("tiny.study.toml:10:9") != std::string::npos);
-    CHECK(refusal(matrix + "variants = [\"musl\"]\n").find("did you mean \"muscl\"") != std::string::npos);
-    CHECK(refusal(with(matrix, "name = \"first\"", "name = \"muscl\"")).find("already taken") != std::string::npos);
-    CHECK(refusal("schema_version = 1\n").find("no [[case]]") != std::string::npos);
-    CHECK(refusal("schema_version = 2\n").find("reads a study") != std::string::npos);
+    CHECK(refused(with(matrix, "resolutions", "resolution")).find("did you mean `resolutions`") != std::string::npos);
+    CHECK(refused(with(matrix, "patch/scene", "batch/scene")).find("tiny.study.toml:10:9") != std::string::npos);
+    CHECK(refused(matrix + "variants = [\"musl\"]\n").find("did you mean \"muscl\"") != std::string::npos);
+    CHECK(refused(with(matrix, "name = \"first\"", "name = \"muscl\"")).find("already taken") != std::string::npos);
+    CHECK(refused("schema_version = 1\n").find("no [[case]]") != std::string::npos);
+    CHECK(refused("schema_version = 2\n").find("reads a study") != std::string::npos);
 
     Bench bad_override(with(matrix, "fluid.scheme.reconstruction=none", "fluid.recon=none"));
     CHECK_THROWS_WITH_AS(bad_override.run(bad_override.options()), doctest::Contains("--set fluid.recon=none"),
@@ -243,24 +239,8 @@ TEST_CASE("mistakes in a study are named with their place") {
 }
 
 TEST_CASE("a study of a body without water counts nodes and Newton iterations") {
-    const std::string bar = R"(schema_version = 1
-gravity = [0, 0]
-[time]
-end = 1.0
-[domain]
-min = [0, 0]
-max = [1, 1]
-[solid.box]
-min = [0, 0]
-max = [1, 0.1]
-elements = [4, 1]
-[solid.material]
-density = 1000.0
-youngs_modulus = 1e7
-poissons_ratio = 0.0
-[solid.scheme]
-name = "static"
-[[solid.clamp]]
+    const std::string bar =
+        elastic_box({.corner = "1, 0.1", .elements = "4, 1", .poissons_ratio = "0.0"}) + R"([[solid.clamp]]
 set = "left"
 [[solid.traction]]
 surface = "right"

@@ -10,26 +10,6 @@ using namespace aquagraph::test;
 
 namespace {
 
-// Water that falls freely: nothing acts on it but gravity.
-const std::string falling_block = R"(schema_version = 1
-title = "Falling block"
-[time]
-end = 0.05
-[domain]
-min = [-1, -1, -1]
-max = [2, 2, 2]
-[fluid]
-spacing = 0.05
-sound_speed = 20
-support_ratio = 2.6
-initial_pressure = "zero"
-[[fluid.box]]
-min = [0, 0, 0]
-max = [0.5, 0.4, 0.3]
-[output]
-frame_interval = 0.025
-)";
-
 // Two blocks under pressure, one upon the other, that fly apart.
 const std::string bursting_blocks = with(with(falling_block, "initial_pressure = \"zero\"\n", ""), "[output]",
                                          "[[fluid.box]]\nmin = [0.1, 0.1, 0.3]\nmax = [0.4, 0.3, 0.6]\n[output]");

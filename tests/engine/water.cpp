@@ -5,7 +5,7 @@
 
 #include "engine/check.hpp"
 #include "physics/geometry/shapes.hpp"
-#include "tests/engine/results_of_run.hpp"
+#include "tests/engine/model_run.hpp"
 #include "tests/io/stl_writer.hpp"
 
 using namespace aquagraph;
@@ -34,17 +34,12 @@ name = "tank"
 points = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
 )";
 
-std::string refusal(const std::string& text) {
-    try {
-        Built built(text);
-    } catch (const io::SceneError& error) {
-        return error.what();
-    }
-    return "";
+std::string refusal_when_built(const std::string& text) {
+    return refusal_by([&] { Built built(text); });
 }
 
 void refused(const std::string& text, std::string_view place, std::string_view message) {
-    const std::string what = refusal(text);
+    const std::string what = refusal_when_built(text);
     CAPTURE(what);
     CHECK(what.find(place) != std::string::npos);
     CHECK(what.find(message) != std::string::npos);
@@ -126,7 +121,7 @@ radius = 0.08
 fluid = "outside"
 )";
     refused(pillar, "scene.toml:19:1", "wrong side of wall 'pillar': a particle of fluid.polygon[0]");
-    CHECK(refusal(with(pillar, "centre = [0.3, 0.2]", "centre = [0.2, 0.8]")) == "");
+    CHECK(refusal_when_built(with(pillar, "centre = [0.3, 0.2]", "centre = [0.2, 0.8]")) == "");
     refused(with(pond, "radius = 0.1", "radius = 0.005"), "scene.toml:12:1", "too thin for a single particle");
 }
 

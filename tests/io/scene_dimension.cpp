@@ -4,9 +4,11 @@
 #include <string>
 
 #include "io/scene_reader.hpp"
-#include "scratch.hpp"
+#include "tests/io/scratch.hpp"
+#include "tests/text.hpp"
 
 using namespace aquagraph;
+using test::with;
 
 namespace {
 
@@ -26,12 +28,6 @@ max = [1.0, 0.5, 0.4]
 name = "floor"
 points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.5, 0.0], [0.0, 0.5, 0.0]]
 )";
-
-std::string with(std::string text, std::string_view old, std::string_view replacement) {
-    const auto at = text.find(old);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, old.size(), replacement);
-}
 
 io::Scene read(const std::string& text) {
     test::ScratchFolder folder;

@@ -7,10 +7,13 @@
 #include "io/scene_json.hpp"
 #include "io/scene_reader.hpp"
 #include "io/scene_time_law.hpp"
-#include "scratch.hpp"
+#include "tests/io/refusal.hpp"
+#include "tests/text.hpp"
 
 using namespace aquagraph;
+using test::refusal;
 using test::ScratchFolder;
+using test::with;
 
 namespace {
 
@@ -38,28 +41,14 @@ io::Scene read(const std::string& more) {
     return io::read_scene(folder.write("scene.toml", sound + more));
 }
 
-std::string in_space(std::string text) {
-    const auto replace = [&](const std::string& old, const std::string& now) {
-        text.replace(text.find(old), old.size(), now);
-    };
-    replace("min = [0.0, 0.0]\nmax = [1.0, 1.0]", "min = [0.0, 0.0, 0.0]\nmax = [1.0, 1.0, 1.0]");
-    replace("min = [0.0, 0.0]\nmax = [1.0, 0.5]\nelements = [2, 1]",
-            "min = [0.0, 0.0, 0.0]\nmax = [1.0, 0.5, 0.1]\nelements = [2, 1, 1]");
-    return text;
-}
-
-std::string error_of(const std::string& more, bool three_dimensions = false) {
-    ScratchFolder folder;
-    try {
-        io::read_scene(folder.write("scene.toml", (three_dimensions ? in_space(sound) : sound) + more));
-    } catch (const io::SceneError& error) {
-        return error.what();
-    }
-    return "no error";
+std::string in_space(const std::string& text) {
+    return with(with(text, "min = [0.0, 0.0]\nmax = [1.0, 1.0]", "min = [0.0, 0.0, 0.0]\nmax = [1.0, 1.0, 1.0]"),
+                "min = [0.0, 0.0]\nmax = [1.0, 0.5]\nelements = [2, 1]",
+                "min = [0.0, 0.0, 0.0]\nmax = [1.0, 0.5, 0.1]\nelements = [2, 1, 1]");
 }
 
 void refused(const std::string& more, const std::string& message, const std::string& help, bool three = false) {
-    const std::string error = error_of(more, three);
+    const std::string error = refusal((three ? in_space(sound) : sound) + more);
     CAPTURE(error);
     CHECK(error.find(message) != std::string::npos);
     CHECK(error.find(help) != std::string::npos);
@@ -139,23 +128,11 @@ TEST_CASE("the balance of water and body together refuses work that it does not 
         "wet = [\"left\"]\n[fluid]\nspacing = 0.1\nsound_speed = 20.0\n[[fluid.box]]\nmin = [0.0, 0.5]\nmax = [0.5, "
         "1.0]\n"
         "[output]\nenergy_ledger = true\n";
-    std::string text = sound;
-    text.replace(text.find("[solid.scheme]\nstep = 0.1\n"), 26,
-                 "[[solid.pressure]]\nsurface = \"right\"\nvalue = 1.0\n");
-    text.replace(text.find("[solid]\n"), 8, "[solid]\n" + water);
-    ScratchFolder folder;
-    const auto error = [&] {
-        try {
-            io::read_scene(folder.write("scene.toml", text));
-        } catch (const io::SceneError& e) {
-            return std::string(e.what());
-        }
-        return std::string();
-    };
-    CHECK(error().find("no column for the work of what moves or presses the body") != std::string::npos);
-    text.replace(text.find("energy_ledger = true"), 20, "energy_ledger = false");
-    CAPTURE(error());
-    CHECK(error().empty());
+    const std::string text =
+        with(with(sound, "[solid.scheme]\nstep = 0.1\n", "[[solid.pressure]]\nsurface = \"right\"\nvalue = 1.0\n"),
+             "[solid]\n", "[solid]\n" + water);
+    CHECK(refusal(text).find("no column for the work of what moves or presses the body") != std::string::npos);
+    CHECK(refusal(with(text, "energy_ledger = true", "energy_ledger = false")) == "");
 }
 
 TEST_CASE("slips in contacts") {
@@ -182,17 +159,7 @@ TEST_CASE("slips in cords, damping and the explicit scheme") {
     refused(cords + "axis_point = [0, 1, 0]\n", "there is no `axis`", "give it", true);
     refused(cords + cords, "this material has cords twice", "two families", true);
     refused("[solid.damping]\nmass = -1\n", "`mass` must be ≥ 0", "α");
-    const auto scheme = [](const std::string& keys) {
-        std::string text = sound;
-        text.replace(text.find("step = 0.1\n"), 11, keys);
-        ScratchFolder folder;
-        try {
-            io::read_scene(folder.write("scene.toml", text));
-        } catch (const io::SceneError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
+    const auto scheme = [](const std::string& keys) { return refusal(with(sound, "step = 0.1\n", keys)); };
     CHECK(scheme("name = \"central_difference\"\n").empty());
     CHECK(scheme("name = \"central_difference\"\nalpha = -0.1\n").find("have no αs") != std::string::npos);
     CHECK(scheme("name = \"static\"\n[solid.damping]\nmass = 1\n").find("does nothing in a static run") !=

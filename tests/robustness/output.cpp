@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include "tests/engine/body_scenes.hpp"
+#include "tests/engine/model_run.hpp"
 #include "tests/robustness/program.hpp"
 
 using namespace aquagraph;

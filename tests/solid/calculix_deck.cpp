@@ -6,9 +6,11 @@
 
 #include "physics/solid/readers/calculix.hpp"
 #include "tests/solid/fixtures.hpp"
+#include "tests/text.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::solid;
+using aquagraph::test::with;
 
 namespace {
 
@@ -83,12 +85,6 @@ Body, S5
 Body, S6
 )";
 
-std::string with(std::string text, const std::string& old, const std::string& replacement) {
-    const auto at = text.find(old);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, old.size(), replacement);
-}
-
 template <int D>
 Mesh<D> read(const std::string& text) {
     std::istringstream input(text);
@@ -143,10 +139,10 @@ TEST_CASE("a mesh of a deck is solved as the same box made here") {
     Solver<2> from_deck(read<2>(plane), options);
     options.clamps = {{"left", {true, true}}};
     Solver<2> made(without_mid_side_nodes(box_mesh({0, 0}, {2, 1}, 2, 1)), options);
-    from_deck.solve_static(test::no_load(from_deck.mesh()), serial_loop);
-    made.solve_static(test::no_load(made.mesh()), serial_loop);
-    const double a = from_deck.displacements()[2 * test::nearest_node(from_deck.mesh(), 2, 1) + 1],
-                 b = made.displacements()[2 * test::nearest_node(made.mesh(), 2, 1) + 1];
+    from_deck.solve_static(solid::test::no_load(from_deck.mesh()), serial_loop);
+    made.solve_static(solid::test::no_load(made.mesh()), serial_loop);
+    const double a = from_deck.displacements()[2 * solid::test::nearest_node(from_deck.mesh(), 2, 1) + 1],
+                 b = made.displacements()[2 * solid::test::nearest_node(made.mesh(), 2, 1) + 1];
     CHECK(a < -1e-3);
     CHECK(a == doctest::Approx(b).epsilon(1e-10));
 }

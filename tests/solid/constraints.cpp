@@ -13,24 +13,11 @@ using namespace aquagraph::solid::test;
 namespace {
 
 Options<2> rubber() {
-    Options<2> options;
-    options.material.law = MaterialLaw::neo_hookean;
-    options.material.youngs_modulus = 1e6;
-    options.material.poissons_ratio = 0.3;
-    options.material.density = 1000;
+    Options<2> options = soft_rubber<2>();
     options.residual_tolerance = 1e-11;
     options.increment_tolerance = 1e-9;
     return options;
 }
-
-const Mesh<2>& beam() {
-    static const Mesh<2> mesh = box_mesh({0, 0}, {0.1, 0.01}, 10, 1);
-    return mesh;
-}
-
-}  // namespace
-
-namespace {
 
 // A beam whose root is shaken, and its twin with a clamped root under the forces of inertia of the shaken frame:
 // largest difference of their displacements, in terms of the largest displacement, and of their reactions likewise.
@@ -40,15 +27,15 @@ std::array<double, 2> frames_differ_by(double alpha, double dt) {
     const std::array<TimeFunction, 2> root{law(Harmonic{0.004, 12, 0, {0.05}}), law(ConstantRate{0.3, {0.05}})};
     moving.motions = {{"left", {root[0], root[1]}}};
     clamped.clamps = {{"left", {true, true}}};
-    Assembly<2> free(beam(), rubber());
-    const std::size_t size = 2 * beam().nodes.size();
+    Assembly<2> free(slender_beam(), rubber());
+    const std::size_t size = 2 * slender_beam().nodes.size();
     std::vector<double> acceleration(size), force(size);
-    Solver<2> shaken(beam(), moving), still(beam(), clamped);
+    Solver<2> shaken(slender_beam(), moving), still(slender_beam(), clamped);
     double largest = 0, worst = 0, largest_reaction = 0, worst_reaction = 0;
     for (double t = dt; t < 0.1; t += dt) {
         for (std::size_t f = 0; f < size; ++f) acceleration[f] = -root[f % 2].at(t).acceleration;
         free.multiply_mass(acceleration, force, serial_loop);
-        shaken.advance(dt, no_load(beam()), serial_loop);
+        shaken.advance(dt, no_load(slender_beam()), serial_loop);
         still.advance(dt, force, serial_loop);
         for (std::size_t f = 0; f < size; ++f) {
             const double u = still.displacements()[f];
@@ -81,8 +68,8 @@ TEST_CASE("prescribed displacements in a static solve: a bar is stretched to twi
     const double E = 1e6, nu = 0.3, mu = E / (2 * (1 + nu)), kappa = E / (3 * (1 - 2 * nu));
     options.clamps = {{"left", {true, false}}, {"bottom", {false, true}}};
     options.motions = {{"right", {TimeFunction::constant(0.1), {}}}};
-    Solver<2> solver(beam(), options);
-    solver.solve_static(no_load(beam()), serial_loop);
+    Solver<2> solver(slender_beam(), options);
+    solver.solve_static(no_load(slender_beam()), serial_loop);
     // W = μ/2 (J^(-2/3) (a² + b² + 1) - 3) + κ/2 (J - 1)², a = 2 along; ∂W/∂b = 0 gives the stretch b across.
     const auto stress = [&](double of, double other) {
         const double J = of * other, I = of * of + other * other + 1;
@@ -91,7 +78,7 @@ TEST_CASE("prescribed displacements in a static solve: a bar is stretched to twi
     double low = 0.3, high = 1;
     for (int k = 0; k < 60; ++k) (stress(0.5 * (low + high), 2) < 0 ? low : high) = 0.5 * (low + high);
     const double b = low, P = stress(2, b);
-    CHECK(solver.displacements()[2 * nearest_node(beam(), 0.1, 0.01) + 1] ==
+    CHECK(solver.displacements()[2 * nearest_node(slender_beam(), 0.1, 0.01) + 1] ==
           doctest::Approx(0.01 * (b - 1)).epsilon(1e-7));
     CHECK(solver.reaction("right")[0] == doctest::Approx(P * 0.01).epsilon(1e-7));
     CHECK(solver.reaction("left")[0] == doctest::Approx(-P * 0.01).epsilon(1e-7));
@@ -103,23 +90,25 @@ TEST_CASE("held twice, unknown sets: refused") {
     Options<2> options = rubber();
     options.clamps = {{"left", {true, true}}};
     options.motions = {{"left", {TimeFunction::constant(0.1), {}}}};
-    CHECK_THROWS_WITH_AS(Solver<2>(beam(), options), doctest::Contains("held twice along x"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(Solver<2>(slender_beam(), options), doctest::Contains("held twice along x"),
+                         std::invalid_argument);
     options.motions = {{"roof", {TimeFunction::constant(0.1), {}}}};
-    CHECK_THROWS_WITH_AS(Solver<2>(beam(), options), doctest::Contains("bottom, left"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(Solver<2>(slender_beam(), options), doctest::Contains("bottom, left"), std::invalid_argument);
     options.motions.clear();
     options.rigid_bodies = {{.set = "left"}};
-    CHECK_THROWS_WITH_AS(Solver<2>(beam(), options), doctest::Contains("rigid body 'left'"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(Solver<2>(slender_beam(), options), doctest::Contains("rigid body 'left'"),
+                         std::invalid_argument);
 }
 
 TEST_CASE("a rigid body that is fixed is a clamp") {
     Options<2> clamped = rubber(), fixed = rubber();
     clamped.clamps = {{"left", {true, true}}};
     fixed.rigid_bodies = {{.set = "left", .motion = {TimeFunction{}, TimeFunction{}, TimeFunction{}}}};
-    Solver<2> one(beam(), clamped), other(beam(), fixed);
-    const auto load = traction(beam(), "top", {3, -50});
+    Solver<2> one(slender_beam(), clamped), other(slender_beam(), fixed);
+    const auto load = traction(slender_beam(), "top", {3, -50});
     for (Solver<2>* solver : {&one, &other}) {
         solver->solve_static(load, serial_loop);
-        for (int k = 0; k < 20; ++k) solver->advance(1e-3, no_load(beam()), serial_loop);
+        for (int k = 0; k < 20; ++k) solver->advance(1e-3, no_load(slender_beam()), serial_loop);
     }
     for (std::size_t f = 0; f < load.size(); ++f)
         CHECK(one.displacements()[f] == doctest::Approx(other.displacements()[f]).epsilon(1e-12));
@@ -316,20 +305,9 @@ TEST_CASE("a wheel continues with the same bits after a restart and on four thre
     options.gravity = {0, -9.81};
     options.rigid_bodies = {
         {.set = "inner", .motion = {law(ConstantRate{1, {}}), {}, {}}, .mass = 2, .inertia = {0.01}}};
-    const ThreadedLoop threads{4};
-    Solver<2> straight(mesh, options), threaded(mesh, options), restarted(mesh, options);
-    State state;
-    for (int k = 0; k < 6; ++k) {
-        if (k == 3) {
-            straight.save(state);
-            threaded.save(state);
-            restarted.restore(state);
-        }
-        straight.advance(1e-3, no_load(mesh), serial_loop);
-        threaded.advance(1e-3, no_load(mesh), BlockLoop(threads));
-        if (k >= 3) restarted.advance(1e-3, no_load(mesh), serial_loop);
-    }
-    for (const Solver<2>* other : {&threaded, &restarted}) {
+    const SixSteps run(mesh, options);
+    const Solver<2>& straight = run.straight;
+    for (const Solver<2>* other : {&run.threaded, &run.restarted}) {
         CHECK(copy(other->positions()) == copy(straight.positions()));
         CHECK(copy(other->accelerations()) == copy(straight.accelerations()));
         CHECK(other->rigid_body(0).displacement == straight.rigid_body(0).displacement);

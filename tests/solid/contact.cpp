@@ -13,15 +13,6 @@ using namespace aquagraph::solid::test;
 
 namespace {
 
-Options<2> rubber() {
-    Options<2> options;
-    options.material.law = MaterialLaw::neo_hookean;
-    options.material.youngs_modulus = 1e6;
-    options.material.poissons_ratio = 0.3;
-    options.material.density = 1000;
-    return options;
-}
-
 Ground<2> floor_at(double y) {
     return {.point = {0, y}, .direction = {0, 1}};
 }
@@ -66,7 +57,7 @@ double tangent_error(const Mesh<D>& mesh, const std::string& surface, const Grou
 }
 
 double total_momentum(const Solver<2>& solver, std::size_t direction) {
-    Assembly<2> all(solver.mesh(), rubber());
+    Assembly<2> all(solver.mesh(), soft_rubber<2>());
     std::vector<double> momentum(2 * solver.mesh().nodes.size());
     all.multiply_mass(solver.velocities(), momentum, serial_loop);
     double sum = 0;
@@ -143,7 +134,7 @@ TEST_CASE("Hertz: a cylinder on a plane, half-width and pressures") {
     // A quarter ring lying on its right: x is up to the ground at x = R. Its inside is pushed by δ.
     const double R = 0.1, E = 1e6, nu = 0.3, E_star = E / (1 - nu * nu);
     const Mesh<2> mesh = quarter_ring(0.4 * R, R, 14, 40, 2, 2.5);
-    Options<2> options = rubber();
+    Options<2> options = soft_rubber<2>();
     options.material.law = MaterialLaw::linear;
     options.clamps = {{"bottom", {false, true}}};
     options.motions = {{"left", {TimeFunction::constant(3e-4), {}}}};
@@ -169,7 +160,7 @@ TEST_CASE("a ball dropped on the ground: impulse and energy, implicit and explic
     const Mesh<2> ball = ring(0.02, 0.1, 32, 4);
     double rebound[2];
     for (const Scheme scheme : {Scheme::hht, Scheme::central_difference}) {
-        Options<2> options = rubber();
+        Options<2> options = soft_rubber<2>();
         options.scheme = scheme;
         options.alpha = -0.05;
         options.contacts = {{.surface = "outer", .ground = floor_at(-0.101)}};
@@ -206,7 +197,7 @@ TEST_CASE("a ball dropped on the ground: impulse and energy, implicit and explic
 
 TEST_CASE("a block slides to a stop as Coulomb says") {
     const Mesh<2> block = box_mesh({0, 0}, {0.1, 0.04}, 6, 3);
-    Options<2> options = rubber();
+    Options<2> options = soft_rubber<2>();
     options.alpha = -0.1;
     options.gravity = {0, -9.81};
     // It begins at rest on the ground, which touches it at first: nothing else carries it.
@@ -236,7 +227,7 @@ TEST_CASE("a block slides to a stop as Coulomb says") {
 TEST_CASE("an inflated wheel is pressed on the ground and rolls one turn; a restart in between changes no bit") {
     const Mesh<2> mesh = wheel(16);
     check(mesh);
-    Options<2> options = rubber();
+    Options<2> options = soft_rubber<2>();
     options.alpha = -0.1;
     const double depth = 0.02, V = 1, R = 0.31;  // the ground is 1 cm away: the wheel grows when it is inflated
     // Times before 0 are static: inflated at -2, pressed at -1.
@@ -302,7 +293,7 @@ TEST_CASE("an inflated wheel is pressed on the ground and rolls one turn; a rest
 
 TEST_CASE("the explicit scheme agrees with the implicit one, and its largest step is close to where it breaks") {
     const Mesh<2> mesh = box_mesh({0, 0}, {0.1, 0.02}, 10, 2);
-    Options<2> options = rubber();
+    Options<2> options = soft_rubber<2>();
     options.clamps = {{"left", {true, true}}};
     options.alpha = 0;
     Solver<2> implicit(mesh, options);
@@ -347,7 +338,7 @@ TEST_CASE("lumped masses are positive and sum up to the mass") {
 TEST_CASE("bad ground and bad contacts are refused") {
     const Mesh<2> mesh = box_mesh({0, 0}, {0.1, 0.02}, 2, 1);
     const auto refused = [&](const char* part, const Contact<2>& contact) {
-        Options<2> options = rubber();
+        Options<2> options = soft_rubber<2>();
         options.contacts = {contact};
         CHECK_THROWS_WITH_AS(Solver<2>(mesh, options), doctest::Contains(part), std::invalid_argument);
     };

@@ -46,13 +46,6 @@ Mesh<3> drawn(const Mesh<2>& plane, double width, int layers) {
     return mesh;
 }
 
-template <int D>
-Options<D> rubber() {
-    Options<D> options;
-    options.material = material(MaterialLaw::neo_hookean, 1000, 1e6, 0.3);
-    return options;
-}
-
 }  // namespace
 
 TEST_CASE("the tangent of slip against differences, the pressure kept") {
@@ -142,13 +135,13 @@ TEST_CASE("a wheel between planes is its plane twin: rim lowered on the ground, 
     const Mesh<3> solid = drawn(plane, width, 2);
     const TimeFunction down = TimeFunction::table({0, 0.02, 1}, {0, -0.01, -0.01}), roll{0, {ConstantRate{2, {}}}},
                        turn{0, {ConstantRate{-2 / 0.3, {}}}}, pressure = TimeFunction::constant(2e4);
-    Options<2> options2 = rubber<2>();
+    Options<2> options2 = soft_rubber<2>();
     options2.linear_elements = LinearElements::displacement;
     options2.thickness = width;
     options2.rigid_bodies = {{.set = "inner", .motion = {roll, down, turn}}};
     options2.pressures = {{"inner", pressure}};
     options2.contacts = {{"outer", {.point = {0, -0.3}, .direction = {0, 1}}, 0.6}};
-    Options<3> options3 = rubber<3>();
+    Options<3> options3 = soft_rubber<3>();
     options3.linear_elements = LinearElements::displacement;
     options3.clamps = {{"free", {false, false, true}}};
     options3.rigid_bodies = {
@@ -179,7 +172,7 @@ TEST_CASE("a wheel between planes is its plane twin: rim lowered on the ground, 
 
 TEST_CASE("contact over several blocks of facets: the same bits on four threads") {
     const Mesh<2> mesh = box_mesh({0, 0}, {3, 0.05}, 300, 5);
-    Options<2> options = rubber<2>();
+    Options<2> options = soft_rubber<2>();
     options.gravity = {1, -9.81};
     options.contacts = {{"bottom", {.point = {0, 0}, .direction = {0, 1}}, 0.3}};
     const ThreadedLoop threads{4};

@@ -14,32 +14,26 @@ using namespace aquagraph::solid::test;
 namespace {
 
 Options<2> rubber() {
-    Options<2> options;
-    options.material = material(MaterialLaw::neo_hookean, 1000, 1e6, 0.3);
+    Options<2> options = soft_rubber<2>();
     options.clamps = {{"left", {true, true}}};
     options.alpha = 0;
     return options;
 }
 
-const Mesh<2>& beam() {
-    static const Mesh<2> mesh = box_mesh({0, 0}, {0.1, 0.01}, 10, 1);
-    return mesh;
-}
-
 // The part of critical damping that a swing in the lowest mode shows over ten periods.
 double measured_damping(Options<2> options) {
-    const Mode mode = lowest_mode(beam(), options);
+    const Mode mode = lowest_mode(slender_beam(), options);
     std::vector<double> u = mode.shape;
     for (double& x : u) x *= 1e-7;
-    Solver<2> solver(beam(), options);
-    start_with(solver, u, no_load(beam()));
+    Solver<2> solver(slender_beam(), options);
+    start_with(solver, u, no_load(slender_beam()));
     constexpr int per_period = 200, periods = 10;
     const double dt =
         options.scheme == Scheme::central_difference ? solver.largest_stable_step() : 1 / (per_period * mode.frequency);
     // Energy is without the ripple of the displacement: its decay over whole periods gives 2 ψ ω.
     const double start = solver.energies().stored();
     const int steps = int(std::lround(periods / (mode.frequency * dt)));
-    for (int k = 0; k < steps; ++k) solver.advance(dt, no_load(beam()), serial_loop);
+    for (int k = 0; k < steps; ++k) solver.advance(dt, no_load(slender_beam()), serial_loop);
     return std::log(start / solver.energies().stored()) / (2 * 2 * M_PI * mode.frequency * steps * dt);
 }
 
@@ -133,7 +127,7 @@ TEST_CASE("viscous forces: tangent, undeformed limit, dissipation, none in a rot
 
 TEST_CASE("a swing in one mode decays as α/(2ω) + βω/2 says") {
     Options<2> options = rubber();
-    const double omega = 2 * M_PI * lowest_mode(beam(), options).frequency;
+    const double omega = 2 * M_PI * lowest_mode(slender_beam(), options).frequency;
     for (const auto& [alpha, beta] :
          {std::pair{0.02 * omega, 0.0}, std::pair{0.0, 0.02 / omega}, std::pair{0.01 * omega, 0.01 / omega}}) {
         options.mass_damping = alpha;
@@ -155,8 +149,8 @@ TEST_CASE("energy balances with damping, which takes its part, at large rotation
         options.residual_tolerance = 1e-11;
         options.mass_damping = 2;
         options.stiffness_damping = 1e-3;
-        Solver<2> solver(beam(), options);
-        const std::vector<double> full = traction(beam(), "top", {0, -120});
+        Solver<2> solver(slender_beam(), options);
+        const std::vector<double> full = traction(slender_beam(), "top", {0, -120});
         std::vector<double> load(full.size());
         const int steps = 200 * refinement;
         errors[refinement - 1] = imbalance(solver, steps, [&](int k) {
@@ -176,25 +170,25 @@ TEST_CASE("the explicit scheme with damping is stable at its step, and not at on
     options.scheme = Scheme::central_difference;
     options.stiffness_damping = 1e-5;
     options.mass_damping = 5;
-    Solver<2> undamped(beam(), [&] {
+    Solver<2> undamped(slender_beam(), [&] {
         Options<2> none = options;
         none.stiffness_damping = 0;
         return none;
     }());
     const auto largest_speed = [&](double part) {
-        Solver<2> solver(beam(), options);
-        start_with(solver, no_load(beam()), wild(2 * beam().nodes.size(), 1e-3, 3));
+        Solver<2> solver(slender_beam(), options);
+        start_with(solver, no_load(slender_beam()), wild(2 * slender_beam().nodes.size(), 1e-3, 3));
         double fastest = 0;
         try {
             for (int k = 0; k < 2000; ++k)
-                solver.advance(part * solver.largest_stable_step(), no_load(beam()), serial_loop);
+                solver.advance(part * solver.largest_stable_step(), no_load(slender_beam()), serial_loop);
             for (const double v : solver.velocities()) fastest = std::max(fastest, std::abs(v));
         } catch (const ConvergenceError&) {
             fastest = 1e9;
         }
         return fastest;
     };
-    CHECK(Solver<2>(beam(), options).largest_stable_step() < 0.9 * undamped.largest_stable_step());
+    CHECK(Solver<2>(slender_beam(), options).largest_stable_step() < 0.9 * undamped.largest_stable_step());
     CHECK(largest_speed(1) < 1e-2);
     CHECK(largest_speed(1.5) > 1);
 }
@@ -206,19 +200,9 @@ TEST_CASE("a damped body continues with the same bits after a restart and on fou
     options.gravity = {0, -9.81};
     options.mass_damping = 3;
     options.stiffness_damping = 1e-4;
-    const ThreadedLoop threads{4};
-    Solver<2> straight(mesh, options), threaded(mesh, options), restarted(mesh, options);
-    State state;
-    for (int k = 0; k < 6; ++k) {
-        if (k == 3) {
-            straight.save(state);
-            restarted.restore(state);
-        }
-        straight.advance(1e-3, no_load(mesh), serial_loop);
-        threaded.advance(1e-3, no_load(mesh), BlockLoop(threads));
-        if (k >= 3) restarted.advance(1e-3, no_load(mesh), serial_loop);
-    }
-    for (const Solver<2>* other : {&threaded, &restarted}) {
+    const SixSteps run(mesh, options);
+    const Solver<2>& straight = run.straight;
+    for (const Solver<2>* other : {&run.threaded, &run.restarted}) {
         CHECK(copy(other->positions()) == copy(straight.positions()));
         CHECK(copy(other->velocities()) == copy(straight.velocities()));
         CHECK(other->energies().damping == straight.energies().damping);
@@ -229,9 +213,9 @@ TEST_CASE("a damped body continues with the same bits after a restart and on fou
 TEST_CASE("damping out of range is refused") {
     Options<2> options = rubber();
     options.mass_damping = -1;
-    CHECK_THROWS_AS(Solver<2>(beam(), options), std::invalid_argument);
+    CHECK_THROWS_AS(Solver<2>(slender_beam(), options), std::invalid_argument);
     options = rubber();
     options.stiffness_damping = 1e-3;
-    CHECK_THROWS_WITH_AS(Solver<2>(without_mid_side_nodes(beam()), options), doctest::Contains("quadratic elements"),
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(Solver<2>(without_mid_side_nodes(slender_beam()), options),
+                         doctest::Contains("quadratic elements"), std::invalid_argument);
 }

@@ -22,17 +22,12 @@ Options<2> rubber() {
     return options;
 }
 
-const Mesh<2>& beam() {
-    static const Mesh<2> mesh = box_mesh({0, 0}, {0.1, 0.01}, 10, 1);
-    return mesh;
-}
-
 // Bends far (a fifth of its length) under a load that comes and goes smoothly; positions at time 0.2 s.
 std::vector<double> large_swing(Options<2> options, int steps) {
     constexpr double end = 0.2;
     options.residual_tolerance = 1e-11;
-    Solver<2> solver(beam(), options);
-    std::vector<double> full = traction(beam(), "top", {0, -120}), load(full.size());
+    Solver<2> solver(slender_beam(), options);
+    std::vector<double> full = traction(slender_beam(), "top", {0, -120}), load(full.size());
     for (int k = 1; k <= steps; ++k) {
         const double t = end * k / steps, part = std::pow(std::sin(M_PI * t / end), 2);
         for (std::size_t f = 0; f < load.size(); ++f) load[f] = part * full[f];
@@ -57,15 +52,15 @@ double observed_order(const Options<2>& options) {
 // |λ| of one step on the lowest mode, measured: once the third, spurious root has died out the amplitude q obeys
 // q_n+1 = 2 Re λ q_n - |λ|² q_n-1.
 double measured_radius(const Options<2>& options, double omega_dt) {
-    const Mode mode = lowest_mode(beam(), options);
+    const Mode mode = lowest_mode(slender_beam(), options);
     std::vector<double> u = mode.shape;
     for (double& x : u) x *= 1e-9;
-    Solver<2> solver(beam(), options);
-    start_with(solver, u, no_load(beam()));
-    const std::size_t tip = 2 * nearest_node(beam(), 0.1, 0) + 1;
+    Solver<2> solver(slender_beam(), options);
+    start_with(solver, u, no_load(slender_beam()));
+    const std::size_t tip = 2 * nearest_node(slender_beam(), 0.1, 0) + 1;
     std::vector<double> q;
     for (int k = 0; k < 60; ++k) {
-        solver.advance(omega_dt / (2 * M_PI * mode.frequency), no_load(beam()), serial_loop);
+        solver.advance(omega_dt / (2 * M_PI * mode.frequency), no_load(slender_beam()), serial_loop);
         q.push_back(solver.displacements()[tip]);
     }
     const std::size_t n = q.size() - 3;  // two equations for 2 Re λ and |λ|²
@@ -128,17 +123,17 @@ TEST_CASE("the damping of the schemes is that of their spectral radius") {
 TEST_CASE("without damping a linear body keeps its energy, with damping it only loses") {
     Options<2> options = rubber();
     options.residual_tolerance = 1e-12;
-    const Mode mode = lowest_mode(beam(), options);
+    const Mode mode = lowest_mode(slender_beam(), options);
     std::vector<double> u = mode.shape;
     for (std::size_t k = 0; k < u.size(); ++k) u[k] *= 1e-8 * (k % 3 == 0 ? 1.2 : 1);  // high modes as well
     for (const double alpha : {0.0, -0.3}) {
         options.alpha = alpha;
-        Solver<2> solver(beam(), options);
-        start_with(solver, u, no_load(beam()));
+        Solver<2> solver(slender_beam(), options);
+        start_with(solver, u, no_load(slender_beam()));
         const double initial = solver.energies().strain;
         double before = initial;
         for (int k = 0; k < 300; ++k) {
-            solver.advance(0.02 / mode.frequency, no_load(beam()), serial_loop);
+            solver.advance(0.02 / mode.frequency, no_load(slender_beam()), serial_loop);
             const Energies energies = solver.energies();
             const double total = energies.kinetic + energies.strain;
             if (alpha == 0) CHECK(total == doctest::Approx(initial).epsilon(1e-6));
@@ -152,8 +147,8 @@ TEST_CASE("the work of the loads becomes energy") {
     Options<2> options = rubber();
     options.alpha = 0;
     options.gravity = {0, -9.81};
-    Solver<2> solver(beam(), options);
-    const auto load = traction(beam(), "top", {3, -5});
+    Solver<2> solver(slender_beam(), options);
+    const auto load = traction(slender_beam(), "top", {3, -5});
     double largest = 0;
     for (int k = 0; k < 400; ++k) {
         solver.advance(2e-4, load, serial_loop);
@@ -168,24 +163,24 @@ TEST_CASE("a free body keeps its momentum, falls as a stone, and its far travel 
     Options<2> options = rubber();
     options.clamps.clear();
     options.gravity = {0, -10};
-    Solver<2> solver(beam(), options);
-    std::vector<double> v = no_load(beam());
-    for (std::size_t n = 0; n < beam().nodes.size(); ++n) {
-        v[2 * n] = 50 + 2 * beam().nodes[n][1];
-        v[2 * n + 1] = 30 * (beam().nodes[n][0] - 0.05);  // turns
+    Solver<2> solver(slender_beam(), options);
+    std::vector<double> v = no_load(slender_beam());
+    for (std::size_t n = 0; n < slender_beam().nodes.size(); ++n) {
+        v[2 * n] = 50 + 2 * slender_beam().nodes[n][1];
+        v[2 * n + 1] = 30 * (slender_beam().nodes[n][0] - 0.05);  // turns
     }
-    start_with(solver, no_load(beam()), v);
-    Assembly<2> assembly(beam(), options);
+    start_with(solver, no_load(slender_beam()), v);
+    Assembly<2> assembly(slender_beam(), options);
     std::vector<double> momentum(v.size());
     const auto total = [&](std::size_t i) {
         assembly.multiply_mass(solver.velocities(), momentum, serial_loop);
         double sum = 0;
-        for (std::size_t n = 0; n < beam().nodes.size(); ++n) sum += momentum[2 * n + i];
+        for (std::size_t n = 0; n < slender_beam().nodes.size(); ++n) sum += momentum[2 * n + i];
         return sum;
     };
     const double p_x = total(0), p_y = total(1);
     constexpr double dt = 1e-3;
-    for (int k = 0; k < 500; ++k) solver.advance(dt, no_load(beam()), serial_loop);
+    for (int k = 0; k < 500; ++k) solver.advance(dt, no_load(slender_beam()), serial_loop);
     CHECK(total(0) == doctest::Approx(p_x).epsilon(1e-9));
     CHECK(total(1) == doctest::Approx(p_y - 10 * 0.5 * solver.mass()).epsilon(1e-9));
     CHECK(solver.displacements()[0] > 20);
@@ -220,17 +215,17 @@ TEST_CASE("first frequency of a slender cantilever, against Euler–Bernoulli; o
 TEST_CASE("a cantilever let go swings at its frequency") {
     Options<2> options = rubber();
     options.alpha = 0;
-    const Mode mode = lowest_mode(beam(), options);
+    const Mode mode = lowest_mode(slender_beam(), options);
     std::vector<double> u = mode.shape;
     for (double& x : u) x *= 1e-7;
-    Solver<2> solver(beam(), options);
-    start_with(solver, u, no_load(beam()));
-    const std::size_t tip = 2 * nearest_node(beam(), 0.1, 0.005) + 1;
+    Solver<2> solver(slender_beam(), options);
+    start_with(solver, u, no_load(slender_beam()));
+    const std::size_t tip = 2 * nearest_node(slender_beam(), 0.1, 0.005) + 1;
     const double dt = 0.005 / mode.frequency;
     std::vector<double> crossings;
     double before = solver.displacements()[tip];
     for (int k = 1; crossings.size() < 9; ++k) {
-        solver.advance(dt, no_load(beam()), serial_loop);
+        solver.advance(dt, no_load(slender_beam()), serial_loop);
         const double now = solver.displacements()[tip];
         if (now * before < 0) crossings.push_back((k - 1 + before / (before - now)) * dt);
         before = now;

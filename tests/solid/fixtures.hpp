@@ -48,6 +48,20 @@ inline Material material(MaterialLaw law, double density, double E, double nu, d
     return made;
 }
 
+// Soft rubber, 1 MPa.
+template <int D>
+Options<D> soft_rubber() {
+    Options<D> options;
+    options.material = material(MaterialLaw::neo_hookean, 1000, 1e6, 0.3);
+    return options;
+}
+
+// 0.1 m by 0.01 m.
+inline const Mesh<2>& slender_beam() {
+    static const Mesh<2> mesh = box_mesh({0, 0}, {0.1, 0.01}, 10, 1);
+    return mesh;
+}
+
 inline std::size_t nearest_node(const Mesh<2>& mesh, double x, double y) {
     std::size_t best = 0;
     const auto distance = [&](std::size_t n) { return std::hypot(mesh.nodes[n][0] - x, mesh.nodes[n][1] - y); };
@@ -105,6 +119,27 @@ inline void start_with(Solver<2>& solver, const std::vector<double>& u, const st
     state.velocities = v;
     solver.restore(state);
 }
+
+// The same steps three times: straight on one thread, on four threads, and from half way by a solver that the second
+// one has handed its state to.
+struct SixSteps {
+    Solver<2> straight, threaded, restarted;
+
+    SixSteps(const Mesh<2>& mesh, const Options<2>& options)
+        : straight(mesh, options), threaded(mesh, options), restarted(mesh, options) {
+        const ThreadedLoop threads{4};
+        for (int k = 0; k < 6; ++k) {
+            if (k == 3) {
+                State state;
+                threaded.save(state);
+                restarted.restore(state);
+            }
+            straight.advance(1e-3, no_load(mesh), serial_loop);
+            threaded.advance(1e-3, no_load(mesh), BlockLoop(threads));
+            if (k >= 3) restarted.advance(1e-3, no_load(mesh), serial_loop);
+        }
+    }
+};
 
 struct Mode {
     double frequency = 0;       // [Hz]

@@ -7,9 +7,11 @@
 #include <string>
 
 #include "tests/solid/fixtures.hpp"
+#include "tests/text.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::solid;
+using aquagraph::test::with;
 
 namespace {
 
@@ -116,12 +118,6 @@ Mesh<2> read(const std::string& text) {
     return read_gmsh<2>(input, "plate.msh");
 }
 
-std::string with(std::string text, const std::string& old_part, const std::string& new_part) {
-    const auto at = text.find(old_part);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, old_part.size(), new_part);
-}
-
 void refused(const std::string& text, const std::string& part) {
     std::string message;
     try {
@@ -181,10 +177,10 @@ TEST_CASE("a mesh from a file is solved as the same mesh made here") {
     Solver<2> from_file(read(linear), options);
     options.clamps = {{"left", {true, true}}};
     Solver<2> made(box_mesh({0, 0}, {2, 1}, 2, 1), options);
-    from_file.solve_static(test::traction(from_file.mesh(), "wet", {0, 1e4}), serial_loop);
-    made.solve_static(test::traction(made.mesh(), "bottom", {0, 1e4}), serial_loop);
-    const double a = from_file.displacements()[2 * test::nearest_node(from_file.mesh(), 2, 1) + 1];
-    const double b = made.displacements()[2 * test::nearest_node(made.mesh(), 2, 1) + 1];
+    from_file.solve_static(solid::test::traction(from_file.mesh(), "wet", {0, 1e4}), serial_loop);
+    made.solve_static(solid::test::traction(made.mesh(), "bottom", {0, 1e4}), serial_loop);
+    const double a = from_file.displacements()[2 * solid::test::nearest_node(from_file.mesh(), 2, 1) + 1];
+    const double b = made.displacements()[2 * solid::test::nearest_node(made.mesh(), 2, 1) + 1];
     CHECK(a > 0.01);
     CHECK(a == doctest::Approx(b).epsilon(1e-12));
 }

@@ -11,9 +11,11 @@
 #include "physics/solid/elements/dispatch.hpp"
 #include "physics/solid/readers/gmsh.hpp"
 #include "tests/solid/fixtures.hpp"
+#include "tests/text.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::solid;
+using aquagraph::test::with;
 
 namespace {
 
@@ -59,12 +61,6 @@ $Elements
 4 17 2 1 1 1 2 3 4 5 6 7 8 9 12 17 10 18 11 19 20 13 16 14 15
 $EndElements
 )";
-
-std::string with(std::string text, const std::string& old, const std::string& replacement) {
-    const auto at = text.find(old);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, old.size(), replacement);
-}
 
 Mesh<3> read(const std::string& text, MeshOrder order = MeshOrder::quadratic) {
     std::istringstream input(text);
