@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <system_error>
 #include <thread>
@@ -49,7 +50,8 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
     bool told = false;
     int status = 0;
     rusage usage{};
-    while (wait4(child, &status, WNOHANG, &usage) == 0) {
+    pid_t ended = 0;
+    while ((ended = wait4(child, &status, WNOHANG, &usage)) == 0) {
         const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         end.timed_out = end.timed_out || elapsed > time_limit;
         if (!told && (end.timed_out || stop())) {
@@ -60,6 +62,8 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
         if (end.timed_out && elapsed > time_limit + 20) kill(child, SIGKILL);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
+    // Where children are reaped unasked (SIGCHLD ignored) nobody knows how this one has ended.
+    if (ended < 0) throw std::system_error(errno, std::generic_category(), "cannot wait for " + program.string());
     if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
     end.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
