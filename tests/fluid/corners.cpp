@@ -271,10 +271,10 @@ TEST_CASE("around a blunt edge of a step no support has a hole in the water beyo
         if (s.x[1][i] > 2 - 4 * spacing) continue;  // the free surface
         CAPTURE(s.x[0][i]);
         CAPTURE(s.x[1][i]);
-        // The partner exactly beyond the edge is missing (0.94), and one image too many is seen above the concave
-        // corner (1.10); without sight round the edge the fullness there was 0.78.
-        CHECK(partition_of_unity(driver.fluid, i) > 0.93);
-        CHECK(partition_of_unity(driver.fluid, i) < 1.11);
-        CHECK(s.fullness[i] > 0.86);
+        // Without sight through the very edge 0.94 beside it; where the images of the upper floor were not hidden from
+        // particles at the foot of the step 1.10; without sight round the edge the fullness was 0.78.
+        CHECK(partition_of_unity(driver.fluid, i) > 0.995);
+        CHECK(partition_of_unity(driver.fluid, i) < 1.005);
+        CHECK(s.fullness[i] > 0.95);
     }
 }

@@ -23,6 +23,15 @@ double distance_to_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const V
     return std::min({distance_to_segment(x, a, b), distance_to_segment(x, b, c), distance_to_segment(x, c, a)});
 }
 
+// To a point, a segment or a triangle.
+template <int D>
+double distance_to(const Vec<D>& x, const Vec<D>* corner, std::size_t corners) {
+    if (corners == 1) return (x - corner[0]).norm();
+    if constexpr (D == 3)
+        if (corners == 3) return distance_to_triangle(x, corner[0], corner[1], corner[2]);
+    return distance_to_segment(x, corner[0], corner[1]);
+}
+
 // Panels more numerous than this in one cell are not compared pairwise.
 constexpr std::size_t most_to_compare = 200;
 
@@ -84,15 +93,7 @@ void PanelGrid<D>::each_cell_near(const Vec<D>* corner, std::size_t corners, con
         // A long slanted panel passes far from most cells of its bounding box.
         const Vec<D> centre =
             origin_ + (at.template cast<double>() + Vec<D>::Constant(0.5)) * (1 / inverse_width_) - shift;
-        double distance = 0;
-        if (corners == 1) {
-            distance = (centre - corner[0]).norm();
-        } else if (corners == 2) {
-            distance = distance_to_segment(centre, corner[0], corner[1]);
-        } else {
-            if constexpr (D == 3) distance = distance_to_triangle(centre, corner[0], corner[1], corner[2]);
-        }
-        if (distance <= reach_ * (1 + half_diagonal)) f(at);
+        if (distance_to(centre, corner, corners) <= reach_ * (1 + half_diagonal)) f(at);
     });
 }
 
@@ -262,6 +263,38 @@ bool PanelGrid<D>::build(const Panels<D>& panels, const std::vector<int>& patch,
         Cell& cell = cells_[used];
         cell.convex_room = is_convex_room(cell, panels);
         cell.one_patch = std::all_of(cell.patch.begin(), cell.patch.end(), [&](int p) { return p == cell.patch[0]; });
+    }
+    // A panel's ghosts lie behind it, and particles within reach of them may be further than that from the panel
+    // itself: round the edge of a step. Where their cell knows other walls, those must hide the ghosts.
+    const double half_width = 0.5 / inverse_width_;
+    for (int copy = 0; copy < Periodic<D>::copies; ++copy) {
+        if (!periodic.exists(copy)) continue;
+        const Vec<D> shift = periodic.shift(copy);
+        for (std::size_t k = 0; k < n; ++k) {
+            std::array<Vec<D>, D> corner;
+            for (std::size_t v = 0; v < D; ++v) corner[v] = panels.vertex(k, v) + shift;
+            Vec<D> from = corner[0], to = corner[0];
+            for (std::size_t v = 1; v < D; ++v) {
+                from = from.cwiseMin(corner[v]);
+                to = to.cwiseMax(corner[v]);
+            }
+            const Vec<D> room = Vec<D>::Constant(2 * reach);
+            each_cell(index_at(from - room), index_at(to + room), [&](const Index& at) {
+                const int number = index_[index(at)];
+                if (number < 0) return;
+                Cell& cell = cells_[std::size_t(number)];
+                if (!cell.convex_room && !cell.one_patch) return;
+                if (std::find(cell.patch.begin(), cell.patch.end(), patch[k]) != cell.patch.end()) return;
+                const Vec<D> centre = origin_ + Vec<D>(2 * at.template cast<double>() + Vec<D>::Ones()) * half_width;
+                const double lowest =
+                    panels.height(k, centre - shift) - half_width * panels.normal[k].template lpNorm<1>();
+                if (lowest < reach && distance_to(centre, corner.data(), D) < 2 * reach + half_width * std::sqrt(D))
+                    cell.convex_room = cell.one_patch = false;
+            });
+        }
+    }
+    for (std::size_t used = 0; used < used_; ++used) {
+        Cell& cell = cells_[used];
         if (D == 2 || cell.wet || !cell.convex_room) fill_sight(cell, panels);
     }
     built_ = used_;

@@ -153,9 +153,15 @@ std::uint8_t Visibility<D>::lanes_seen(std::size_t i, std::size_t cluster, std::
 template <int D>
 bool Visibility<D>::goes_round_an_edge(const Cell& cell, int entry, const Vec<D>& target, const Vec<D>& from) const {
     if (blunt_edges_.empty()) return false;
-    const auto exit = PanelGrid<D>::first_crossing(cell, target, from);
+    const int a = (*patch_)[std::size_t(entry)];
+    auto exit = PanelGrid<D>::first_crossing(cell, target, from);
     if (exit.entry < 0) return false;
-    const int a = (*patch_)[std::size_t(entry)], b = (*patch_)[std::size_t(cell.panel[std::size_t(exit.entry)])];
+    if (cell.patch[std::size_t(exit.entry)] == a) {  // or touches the very edge: in and out in the same place
+        const double along = exit.along;
+        exit = PanelGrid<D>::first_crossing(cell, target, from, a);
+        if (exit.entry < 0 || std::fabs(exit.along - along) > 1e-6) return false;
+    }
+    const int b = (*patch_)[std::size_t(cell.panel[std::size_t(exit.entry)])];
     return std::binary_search(blunt_edges_.begin(), blunt_edges_.end(), std::pair(std::min(a, b), std::max(a, b)));
 }
 
