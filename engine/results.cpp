@@ -131,8 +131,9 @@ void Results<D>::resume() {
 template <int D>
 std::vector<tasks::Task> result_tasks(Results<D>* results, const std::vector<Diagnostic>& diagnostics) {
     namespace resource = tasks::resource;
-    const std::vector<std::string> reads = {resource::clock, resource::fluid, resource::interface_loads,
-                                            resource::solid_state};
+    const std::vector<std::string> reads = {
+        resource::clock,           resource::fluid,           resource::interface_loads, resource::interface_energy,
+        resource::interface_ratio, resource::interface_guess, resource::solid_state};
     std::vector<tasks::Task> tasks;
     for (std::size_t k = 0; k < diagnostics.size(); ++k) {
         tasks::Task& task = tasks.emplace_back(diagnostics[k].task);
