@@ -160,7 +160,8 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
         for (const FilledBody& body : model->water) print_filling(out, body);
         if (model->flux_walls)
             out << fmt::format("walls      normal fluxes: {} panels, {} points, {} particles near them\n",
-                               model->flux_walls->panels.size(), model->flux_walls->points.size(),
+                               model->flux_walls->panels.size() - model->flux_walls->panels.copies,
+                               model->flux_walls->points.size(),
                                model->flux_walls->near_wall_count());
         if (model->walls)
             out << fmt::format("walls      ghost particles: {} panels, {} ghosts\n", model->walls->panels.panels.size(),

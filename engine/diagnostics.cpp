@@ -105,6 +105,7 @@ class FluxWallForcesTask {
     void measure() {
         fluid::Particles<D>& s = fluid_.particles;
         if (fluid_.rebuilds == 0) rebuild_lists(fluid_, walls_, tasks::parallel_loop);  // before the first step
+        if (walls_.is_periodic()) tasks::ghost_state(fluid_, walls_.images, "").body();
         fullness_ = s.fullness;
         tasks::for_each_block(fluid_.blocks(), [&](std::size_t block) {
             if (!walls_.has_near_wall(block)) return;

@@ -55,17 +55,16 @@ HistoryPart fluid_energies(const Model<D>& model) {
 }
 
 // The balance: kinetic + potential + compression + dissipated + viscous + lost energy - its initial value = wall work,
-// and the residual is what this misses.
+// and the residual is what this misses. Walls of normal fluxes have a defect besides (walls/normal_flux.hpp).
 template <int D>
 HistoryPart energy_balance(const Model<D>& model) {
     const std::string unit = per_depth<D>("J");
     auto initial = std::make_shared<std::vector<double>>();  // of the first row
-    return {{{"fluid_compression_energy", unit},
-             {"fluid_dissipated_energy", unit},
-             {"fluid_viscous_heat", unit},
-             {"fluid_lost_energy", unit},
-             {"fluid_wall_work", unit},
-             {"fluid_energy_residual", unit}},
+    std::vector<io::HistoryColumn> columns{{"fluid_compression_energy", unit}, {"fluid_dissipated_energy", unit},
+                                           {"fluid_viscous_heat", unit},       {"fluid_lost_energy", unit},
+                                           {"fluid_wall_work", unit},          {"fluid_energy_residual", unit}};
+    if (model.flux_walls) columns.push_back({"flux_wall_defect", unit});
+    return {columns,
             [&model, initial](std::vector<double>& row) {
                 const fluid::EnergyLedger& ledger = model.fluid->ledger;
                 const fluid::FluidEnergies state = energies_of(model);
@@ -73,9 +72,10 @@ HistoryPart energy_balance(const Model<D>& model) {
                 if (initial->empty()) initial->push_back(now);
                 const double lost = ledger.lost + ledger.sum.displacement;
                 const double residual = now - initial->front() + ledger.sum.compression + ledger.sum.dissipation +
-                                        ledger.sum.viscous + lost - ledger.sum.walls;
+                                        ledger.sum.viscous + ledger.sum.defect + lost - ledger.sum.walls;
                 row.insert(row.end(), {ledger.sum.compression, ledger.sum.dissipation, ledger.sum.viscous, lost,
                                        ledger.sum.walls, residual});
+                if (model.flux_walls) row.push_back(ledger.sum.defect);
             },
             initial};
 }
@@ -105,8 +105,8 @@ HistoryPart total_balance(const Model<2>& model) {
                                    ledger.lost + body.stored();
                 if (initial->empty()) initial->push_back(now);
                 const coupling::InterfaceEnergy& interface = model.interface->energy;
-                const double dissipated = ledger.sum.dissipation + ledger.sum.viscous + body.external_work -
-                                          (body.stored() - interface.solid_at_start),
+                const double dissipated = ledger.sum.dissipation + ledger.sum.viscous + ledger.sum.defect +
+                                          body.external_work - (body.stored() - interface.solid_at_start),
                              rigid = ledger.sum.walls - interface.to_fluid;
                 row.insert(row.end(), {now - initial->front(),
                                        now - initial->front() + dissipated - rigid - interface.of_interface()});

@@ -9,7 +9,7 @@
 //       gradients -> ghost gradients           a ghost's gradient is its parent's, mirrored: hence after it
 //       free surface -> shifting, or X-SPH     where asked for, in the first stage
 //       fluxes -> viscosity -> body forces -> energy ledger -> integration stage
-//       With walls of the normal flux method there are no ghosts:
+//       With walls of the normal flux method there are no ghosts but for periodic images:
 //       wall motion -> wall gamma, gradients -> wall gradients, fluxes -> viscosity -> wall friction -> wall fluxes
 //     wall contact, clock, examine
 //   wall motion, ghosts, gradients, loads      the load at the end of the cycle, from the state reached there
@@ -95,6 +95,7 @@ class Listing {
         add(tasks::gradients(fluid, name));
         if (model_.walls) add(tasks::ghost_gradients(fluid, *model_.walls, name));
         if (model_.flux_walls) add(tasks::wall_gradients(fluid, *model_.flux_walls, name));
+        if (flux_images()) add(tasks::ghost_gradients(fluid, *flux_images(), name));
         if (first) transport(name);
         add(tasks::fluxes(fluid, name));
         if (fluid.viscosity.dynamic > 0) add(tasks::viscosity(fluid, name));
@@ -109,6 +110,12 @@ class Listing {
 
     // Energies, where the scene asks for them or the load needs them.
     void ledger(int stage, const std::string& name) {
+        if (model_.flux_walls) {
+            if (model_.fluid->ledger.kept || !model_.wall_works.empty())
+                add(tasks::energy_ledger(*model_.fluid, *model_.flux_walls, model_.wall_works, model_.clock, stage,
+                                         name));
+            return;
+        }
         if (model_.fluid->ledger.kept) add(tasks::energy_ledger(*model_.fluid, model_.clock, stage, name));
         if (!model_.wall_works.empty())
             add(tasks::wall_work(*model_.fluid, *model_.walls, model_.wall_works, model_.clock, stage, name));
@@ -124,6 +131,7 @@ class Listing {
             add(tasks::shifting(fluid, name));
         }
         if (model_.walls && model_.walls->periodic.any()) add(tasks::ghost_shift(fluid, *model_.walls, name));
+        if (flux_images()) add(tasks::ghost_shift(fluid, *flux_images(), name));
     }
 
     // Walls and ghosts at `fraction` of the present step.
@@ -131,6 +139,7 @@ class Listing {
         const coupling::Interface* interface = model_.interface ? &*model_.interface : nullptr;
         if ((model_.walls || model_.flux_walls) && (interface || moving())) wall_motion(fraction, label, interface);
         if (model_.flux_walls) add(tasks::wall_gamma(*model_.fluid, *model_.flux_walls, label));
+        if (flux_images()) add(tasks::ghost_state(*model_.fluid, *flux_images(), label));
         if (model_.walls) add(tasks::ghost_state(*model_.fluid, *model_.walls, label));
     }
 
@@ -180,6 +189,10 @@ class Listing {
             add(tasks::wall_motion<D>(*model_.flux_walls, moving(), interface, model_.clock, fraction, label));
         else
             add(tasks::wall_motion<D>(*model_.walls, moving(), interface, model_.clock, fraction, label));
+    }
+    // Periodic images beside walls of normal fluxes.
+    fluid::GhostWalls<D>* flux_images() const {
+        return model_.flux_walls && model_.flux_walls->is_periodic() ? &model_.flux_walls->images : nullptr;
     }
     const fluid::MovingWalls<D>* moving() const { return model_.moving.empty() ? nullptr : &model_.moving; }
 

@@ -7,6 +7,7 @@
 #include "engine/initial_fields.hpp"
 #include "engine/solid_parts.hpp"
 #include "engine/wall_parts.hpp"
+#include "io/scene_reader.hpp"
 
 namespace aquagraph::engine {
 
@@ -62,6 +63,25 @@ void make_periodic(const io::Scene& scene, fluid::Periodic<D>& periodic, fluid::
     }
 }
 
+template <int D>
+void add_wall_works(const io::Scene& scene, Model<D>& model) {
+    for (std::size_t w = 0; w < scene.walls.size(); ++w)
+        if (scene.walls[w].force && scene.output.energy_ledger)
+            model.wall_works.push_back({scene.walls[w].name, fluid::WallForces<D>(int(w)), {}});
+}
+
+// Walls of normal fluxes in a periodic domain.
+template <int D>
+void repeat_walls(const io::Scene& scene, Model<D>& model) {
+    fluid::Periodic<D> periodic;
+    make_periodic(scene, periodic, model.fluid->domain);
+    try {
+        model.flux_walls->repeat(periodic);
+    } catch (const std::invalid_argument& error) {
+        throw io::scene_error(scene, "fluid.walls", error.what(), "or take [fluid] walls = \"ghosts\"");
+    }
+}
+
 // Once all panels are there.
 template <int D>
 void settle(const io::Scene& scene, fluid::Panels<D>& panels, const fluid::MovingWalls<D>& moving) {
@@ -93,14 +113,13 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
         model->moving = moving_walls(scene, walls.panels);
         if (!model->fluid->flux.is_riemann()) walls.pressure = fluid::WallPressure::extrapolated;
         model->fluid->wall_friction = fluid::friction_factor(walls.panels, scene.fluid->support_ratio);
+        add_wall_works(scene, *model);
     } else if (!scene.walls.empty() || scene.solid || !scene.periodic.empty()) {
         fluid::GhostWalls<D>& walls = model->walls.emplace();
         add_walls(scene, walls.panels);
         make_periodic(scene, walls.periodic, model->fluid->domain);
         model->moving = moving_walls(scene, walls.panels);
-        for (std::size_t w = 0; w < scene.walls.size(); ++w)
-            if (scene.walls[w].force && scene.output.energy_ledger)
-                model->wall_works.push_back({scene.walls[w].name, fluid::WallForces<D>(int(w)), {}});
+        add_wall_works(scene, *model);
     }
     if constexpr (D == 2) {
         if (scene.solid) {
@@ -115,6 +134,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
         }
     }
     if (model->walls) settle(scene, model->walls->panels, model->moving);
+    if (model->flux_walls && !scene.periodic.empty()) repeat_walls(scene, *model);
     if (model->flux_walls) settle(scene, model->flux_walls->panels, model->moving);
     return model;
 }

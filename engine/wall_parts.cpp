@@ -121,7 +121,7 @@ template <int D>
 std::vector<std::vector<io::Point>> moving_panels(const io::Scene& scene, const fluid::Panels<D>& panels) {
     constexpr std::size_t most = 500;
     std::vector<std::size_t> moving;
-    for (std::size_t k = 0; k < panels.size(); ++k) {
+    for (std::size_t k = 0; k < panels.size() - panels.copies; ++k) {
         const auto wall = std::size_t(panels.panels[k].wall);
         if (wall < scene.walls.size() && scene.walls[wall].motion) moving.push_back(k);
     }

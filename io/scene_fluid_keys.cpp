@@ -126,7 +126,7 @@ std::vector<SceneKey> all_keys() {
          "K of Δt = K R/c"},
         {"fluid", "walls", K::choice, false, "", any, "ghosts normal_flux", "ghosts",
          "particles mirrored through the walls, or fluxes through their surface; the latter for riemann alone, without "
-         "a periodic domain, an energy ledger, the energy-conservative load and iterated cycles; viscosity by morris"},
+         "iterated cycles; viscosity by morris"},
         {"fluid", "initial_pressure", K::choice, false, "", any, "hydrostatic zero", "hydrostatic",
          "pressure at t = 0"},
         {"fluid", "surface_level", K::number, false, "m", any, "", "highest top of the water",

@@ -148,26 +148,16 @@ class Validation {
         if (!scene_.fluid || scene_.fluid->walls != WallMethod::normal_flux || complaints_.touch("fluid.walls")) return;
         const FluidScene& fluid = *scene_.fluid;
         const std::string help = "take [fluid] walls = \"ghosts\"";
-        if (scene_.solid && scene_.coupling.load == coupling::LoadMethod::energy_conservative)
-            complaints_.add("fluid.walls",
-                            "the energy-conservative load does not know the work of walls of normal fluxes",
-                            help + ", or [coupling] load = \"force_conservative\"");
         if (scene_.solid && scene_.coupling.algorithm == CouplingAlgorithm::iterated)
             complaints_.add("fluid.walls",
                             "the iterated algorithm cannot go back to the start of a cycle with walls of "
                             "normal fluxes",
                             help + ", or choose another [coupling] algorithm");
-        if (!scene_.periodic.empty())
-            complaints_.add("fluid.walls", "walls of normal fluxes have no images in a periodic domain",
-                            help + ", or take [domain] periodic out");
         // δ-SPH and artificial viscosity have no Riemann problem to put at the wall; without its damping still water
         // does not stay still. ALE exchanges mass, which the walls do not follow.
         if (fluid.scheme.name != fluid::Scheme::riemann)
             complaints_.add("fluid.walls", "walls of normal fluxes need Riemann-SPH without mass exchange",
                             help + ", or [fluid.scheme] name = \"riemann\"");
-        if (scene_.output.energy_ledger)
-            complaints_.add("fluid.walls", "the energy ledger does not know the work of walls of normal fluxes",
-                            help + ", or energy_ledger = false");
         if (fluid.viscosity > 0 && fluid.viscous_operator != fluid::ViscousOperator::morris)
             complaints_.add("fluid.walls",
                             "Monaghan and Gingold's viscosity lacks the part behind walls of normal fluxes: it would "

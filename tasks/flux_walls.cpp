@@ -1,5 +1,7 @@
 #include "tasks/flux_walls.hpp"
 
+#include <memory>
+
 #include "tasks/parallel_loop.hpp"
 #include "tasks/resources.hpp"
 #include "tasks/statistics.hpp"
@@ -35,7 +37,8 @@ Task wall_gamma(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const 
 template <int D>
 Task wall_gradients(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label) {
     return {.name = "wall gradients (" + label + ")",
-            .reads = {resource::walls, resource::wall_gamma, resource::fluid_lists, resource::fluid_state},
+            .reads = {resource::walls, resource::wall_gamma, resource::fluid_lists, resource::fluid_state,
+                      resource::fluid_ghosts},
             .writes = {resource::fluid_gradients, resource::wall_moments},
             .body = [&fluid, &walls] {
                 for_each_block(fluid.blocks(), [&](std::size_t block) {
@@ -73,6 +76,35 @@ Task wall_fluxes(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const
 }
 
 template <int D>
+Task energy_ledger(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls,
+                   std::vector<fluid::WallWork<D>>& works, const Clock& clock, int stage, const std::string& label) {
+    auto power = std::make_shared<std::vector<double>>();  // of each wall, block by block
+    return {.name = "energy ledger (" + label + ")",
+            .reads = {resource::clock_step, resource::walls, resource::wall_gamma, resource::fluid_lists,
+                      resource::fluid_state, resource::fluid_ghosts, resource::fluid_gradients,
+                      resource::ghost_gradients, resource::fluid_rates, resource::fluid_shift},
+            .writes = {resource::fluid_ledger},
+            .body = [&fluid, &walls, &works, &clock, stage, power] {
+                const std::size_t n = walls.panels.names.size();
+                power->assign(n * fluid.blocks(), 0.0);
+                fluid.ledger.part.resize(fluid.blocks());
+                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                    fluid.ledger.part[block] = walls.energy_rates(
+                        fluid.particles, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.viscosity,
+                        fluid.spacing, block, std::span(*power).subspan(n * block, n));
+                    report_work(fluid.lists.blocks[block].pairs);
+                });
+                if (fluid.ledger.kept) fluid.ledger.accumulate(fluid.integration.scheme, stage, clock.step);
+                for (fluid::WallWork<D>& work : works) {
+                    work.ledger.part.assign(fluid.blocks(), {});
+                    for (std::size_t block = 0; block < fluid.blocks(); ++block)
+                        work.ledger.part[block].walls = (*power)[n * block + std::size_t(work.pairs.wall())];
+                    work.ledger.accumulate(fluid.integration.scheme, stage, clock.step);
+                }
+            }};
+}
+
+template <int D>
 Task wall_contact(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label) {
     return {.name = "wall contact (" + label + ")",
             .reads = {resource::walls, resource::fluid_lists},
@@ -88,6 +120,10 @@ template Task wall_motion(fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3
                           const Clock&, double, const std::string&);
 template Task wall_friction(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
 template Task wall_friction(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
+template Task energy_ledger(fluid::Fluid<2>&, const fluid::NormalFluxWalls<2>&, std::vector<fluid::WallWork<2>>&,
+                            const Clock&, int, const std::string&);
+template Task energy_ledger(fluid::Fluid<3>&, const fluid::NormalFluxWalls<3>&, std::vector<fluid::WallWork<3>>&,
+                            const Clock&, int, const std::string&);
 template Task wall_gamma(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
 template Task wall_gamma(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
 template Task wall_gradients(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);

@@ -6,6 +6,7 @@
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
+#include "physics/fluid/walls/wall_forces.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
@@ -26,6 +27,10 @@ Task wall_friction(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, con
 // After the fluxes, before body forces.
 template <int D>
 Task wall_fluxes(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
+// Adds the energy rates of this stage to the fluid's ledger and to the works of single walls; reads Δt from the clock.
+template <int D>
+Task energy_ledger(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls,
+                   std::vector<fluid::WallWork<D>>& works, const Clock& clock, int stage, const std::string& label);
 // After the last stage: NormalFluxWalls::hold_back.
 template <int D>
 Task wall_contact(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label);

@@ -8,22 +8,22 @@ namespace aquagraph::fluid {
 namespace {
 
 // Power per own volume of the pairs of each particle, of one block.
-template <int D>
 struct PairPowers {
-    double total[clusters_per_block * W];  // into E_K and E_C
-    double walls[clusters_per_block * W];  // of it, by the work of walls
+    double motion[PairEnergies::most];       // into E_K
+    double compression[PairEnergies::most];  // into E_C
+    double passed_on[PairEnergies::most];    // what passes from j to i unchanged, of lanes from a first one on
 };
 
 template <int D, class Pair>
 struct FluxEnergyPass {
     Pair pair_flux;
     FluxFields<D> fields;
-    std::size_t ghost_begin, first;
-    PairPowers<D>& powers;
+    std::size_t passed_on_from, first;
+    PairPowers& powers;
 
     using Own = PairState<D>;
     struct Sum {
-        double total[W], walls[W];
+        double motion[W], compression[W], passed_on[W];
     };
 
     Own load(std::size_t i) const { return fields.load(i); }
@@ -37,14 +37,16 @@ struct FluxEnergyPass {
             b += fields.v[d][j] * dx[d];
         }
         const double p_j = fields.p[j];
-        sum.total[l] -= flux.pressure * a + i.p * flux.dilation;
-        const double wall = (i.p * b + p_j * a) * w - 0.5 * ((i.p + p_j) * w - flux.pressure) * (a + b);
-        sum.walls[l] -= j >= ghost_begin ? wall : 0.0;
+        sum.motion[l] -= flux.pressure * a;
+        sum.compression[l] -= i.p * flux.dilation;
+        const double power = (i.p * b + p_j * a) * w - 0.5 * ((i.p + p_j) * w - flux.pressure) * (a + b);
+        sum.passed_on[l] -= j >= passed_on_from ? power : 0.0;
     }
 
     void store(std::size_t i, const Own&, const Sum& sum) const {
-        powers.total[i - first] = add_lanes(sum.total);
-        powers.walls[i - first] = add_lanes(sum.walls);
+        powers.motion[i - first] = add_lanes(sum.motion);
+        powers.compression[i - first] = add_lanes(sum.compression);
+        powers.passed_on[i - first] = add_lanes(sum.passed_on);
     }
 };
 
@@ -54,12 +56,12 @@ struct ViscousEnergyPass {
     Kernel kernel;
     double dynamic;
     FluxFields<D> fields;
-    std::size_t ghost_begin, first;
-    PairPowers<D>& powers;
+    std::size_t passed_on_from, first;
+    PairPowers& powers;
 
     using Own = PairState<D>;
     struct Sum {
-        double total[W], walls[W];
+        double motion[W], passed_on[W];
     };
 
     Own load(std::size_t i) const { return fields.load(i); }
@@ -73,15 +75,44 @@ struct ViscousEnergyPass {
             own += dynamic * force[d] * i.v[d];
             middle += dynamic * force[d] * (i.v[d] + 0.5 * dv[d]);
         }
-        sum.total[l] += own;
-        sum.walls[l] += j >= ghost_begin ? middle : 0.0;
+        sum.motion[l] += own;
+        sum.passed_on[l] += j >= passed_on_from ? middle : 0.0;
     }
 
     void store(std::size_t i, const Own&, const Sum& sum) const {
-        powers.total[i - first] = add_lanes(sum.total);
-        powers.walls[i - first] = add_lanes(sum.walls);
+        powers.motion[i - first] = add_lanes(sum.motion);
+        powers.passed_on[i - first] = add_lanes(sum.passed_on);
     }
 };
+
+template <int D>
+void flux_powers(const Particles<D>& s, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
+                 const FluxParameters& parameters, const Tait& tait, std::size_t passed_on_from, LaneRange lanes,
+                 PairPowers& powers) {
+    const FluxFields<D> fields(s);
+    visit_pair<D>(kernel, parameters, tait, [&](const auto& pair) {
+        using Pair = std::remove_cvref_t<decltype(pair)>;
+        pair_loop<D>(lists, lanes, FluxEnergyPass<D, Pair>{pair, fields, passed_on_from, lanes.begin, powers});
+    });
+}
+
+template <int D>
+void viscous_powers(const Particles<D>& s, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
+                    const Viscosity& viscosity, std::size_t passed_on_from, LaneRange lanes, PairPowers& powers) {
+    const FluxFields<D> fields(s);
+    kernel.visit([&](const auto& k) {
+        using K = std::remove_cvref_t<decltype(k)>;
+        const auto run = [&]<ViscousOperator form>(std::integral_constant<ViscousOperator, form>) {
+            pair_loop<D>(
+                lists, lanes,
+                ViscousEnergyPass<D, K, form>{k, viscosity.dynamic, fields, passed_on_from, lanes.begin, powers});
+        };
+        if (viscosity.form == ViscousOperator::morris)
+            run(std::integral_constant<ViscousOperator, ViscousOperator::morris>());
+        else
+            run(std::integral_constant<ViscousOperator, ViscousOperator::monaghan_gingold>());
+    });
+}
 
 }  // namespace
 
@@ -90,6 +121,7 @@ EnergyRates& EnergyRates::add(double weight, const EnergyRates& rates) {
     dissipation += weight * rates.dissipation;
     viscous += weight * rates.viscous;
     walls += weight * rates.walls;
+    defect += weight * rates.defect;
     displacement += weight * rates.displacement;
     return *this;
 }
@@ -113,45 +145,54 @@ void EnergyLedger::accumulate(IntegrationScheme scheme, int stage, double dt) {
 }
 
 template <int D>
+void pair_energies(const Particles<D>& s, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
+                   const FluxParameters& parameters, const Tait& tait, const Viscosity& viscosity, LaneRange lanes,
+                   PairEnergies& energies) {
+    PairPowers powers;
+    flux_powers(s, lists, kernel, parameters, tait, 0, lanes, powers);
+    const std::size_t n = lanes.end - lanes.begin;
+    for (std::size_t k = 0; k < n; ++k) {
+        energies.motion[k] = powers.motion[k];
+        energies.dissipated[k] = powers.passed_on[k] - powers.motion[k] - powers.compression[k];
+        energies.viscous_motion[k] = energies.heat[k] = 0;
+    }
+    if (viscosity.dynamic == 0) return;
+    viscous_powers(s, lists, kernel, viscosity, 0, lanes, powers);
+    for (std::size_t k = 0; k < n; ++k) {
+        energies.viscous_motion[k] = powers.motion[k];
+        energies.heat[k] = powers.passed_on[k] - powers.motion[k];
+    }
+}
+
+template <int D>
 EnergyRates energy_rates(const Particles<D>& s, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
                          const FluxParameters& parameters, const Tait& tait, const Viscosity& viscosity,
                          LaneRange lanes) {
     EnergyRates rates;
-    PairPowers<D> powers;
-    const FluxFields<D> fields(s);
-    visit_pair<D>(kernel, parameters, tait, [&](const auto& pair) {
-        using Pair = std::remove_cvref_t<decltype(pair)>;
-        pair_loop<D>(lists, lanes, FluxEnergyPass<D, Pair>{pair, fields, s.ghost_begin(), lanes.begin, powers});
-    });
+    PairPowers powers;
+    flux_powers(s, lists, kernel, parameters, tait, s.ghost_begin(), lanes, powers);
     for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
         const std::size_t k = i - lanes.begin;
         rates.compression += s.p[i] * s.volume[i] / (tait.reference_density + s.deviation[i]) * s.deviation_rate[i];
-        rates.walls += s.volume[i] * powers.walls[k];
-        rates.dissipation += s.volume[i] * (powers.walls[k] - powers.total[k]);
+        rates.walls += s.volume[i] * powers.passed_on[k];
+        rates.dissipation += s.volume[i] * (powers.passed_on[k] - powers.motion[k] - powers.compression[k]);
         if (s.has_shift)
             for (std::size_t d = 0; d < D; ++d) rates.displacement += s.mass[i] * parameters.gravity[d] * s.shift[d][i];
     }
     if (viscosity.dynamic == 0) return rates;
-    kernel.visit([&](const auto& k) {
-        using K = std::remove_cvref_t<decltype(k)>;
-        const auto run = [&]<ViscousOperator form>(std::integral_constant<ViscousOperator, form>) {
-            pair_loop<D>(
-                lists, lanes,
-                ViscousEnergyPass<D, K, form>{k, viscosity.dynamic, fields, s.ghost_begin(), lanes.begin, powers});
-        };
-        if (viscosity.form == ViscousOperator::morris)
-            run(std::integral_constant<ViscousOperator, ViscousOperator::morris>());
-        else
-            run(std::integral_constant<ViscousOperator, ViscousOperator::monaghan_gingold>());
-    });
+    viscous_powers(s, lists, kernel, viscosity, s.ghost_begin(), lanes, powers);
     for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
         const std::size_t k = i - lanes.begin;
-        rates.walls += s.volume[i] * powers.walls[k];
-        rates.viscous += s.volume[i] * (powers.walls[k] - powers.total[k]);
+        rates.walls += s.volume[i] * powers.passed_on[k];
+        rates.viscous += s.volume[i] * (powers.passed_on[k] - powers.motion[k]);
     }
     return rates;
 }
 
+template void pair_energies(const Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&, const FluxParameters&,
+                            const Tait&, const Viscosity&, LaneRange, PairEnergies&);
+template void pair_energies(const Particles<3>&, const NeighbourLists<3>&, const Kernel<3>&, const FluxParameters&,
+                            const Tait&, const Viscosity&, LaneRange, PairEnergies&);
 template EnergyRates energy_rates(const Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&,
                                   const FluxParameters&, const Tait&, const Viscosity&, LaneRange);
 template EnergyRates energy_rates(const Particles<3>&, const NeighbourLists<3>&, const Kernel<3>&,

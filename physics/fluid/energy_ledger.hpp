@@ -9,7 +9,7 @@
 //                likewise
 // Rates are accumulated with the weights of the time integration, so the balance closes to its error. The pairs are
 // those of the flux pass once more: it costs about as much as the fluxes, and is done only where a scene asks for it.
-// Schemes without mass exchange, walls of mirror images.
+// Schemes without mass exchange. Walls of normal fluxes: walls/normal_flux.hpp, with a defect besides.
 #pragma once
 #include <vector>
 
@@ -20,6 +20,7 @@ namespace aquagraph::fluid {
 
 struct EnergyRates {  // [W] ([W/m] in 2D)
     double compression = 0, dissipation = 0, viscous = 0, walls = 0;
+    double defect = 0;        // of walls of normal fluxes: energy that is neither dissipated nor kept
     double displacement = 0;  // potential energy that X-SPH's δv takes out, moving particles against or along gravity
     EnergyRates& add(double weight, const EnergyRates& rates);
 };
@@ -40,12 +41,29 @@ struct EnergyLedger {
     void accumulate(IntegrationScheme scheme, int stage, double dt);
 };
 
+// What the pairs of each particle of one block do, per its volume [W/m^D].
+struct PairEnergies {
+    static constexpr std::size_t most = clusters_per_block * W;
+    double motion[most];          // of pressures times its velocity
+    double dissipated[most];      // by the pair fluxes, its half
+    double viscous_motion[most];  // of viscosity times its velocity
+    double heat[most];            // of viscosity, its half
+};
+template <int D>
+void pair_energies(const Particles<D>& particles, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
+                   const FluxParameters& parameters, const Tait& tait, const Viscosity& viscosity, LaneRange lanes,
+                   PairEnergies& energies);
+
 // The rates of these particles (of one block), in the state in which the flux pass has just been.
 template <int D>
 EnergyRates energy_rates(const Particles<D>& particles, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
                          const FluxParameters& parameters, const Tait& tait, const Viscosity& viscosity,
                          LaneRange lanes);
 
+extern template void pair_energies(const Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&,
+                                   const FluxParameters&, const Tait&, const Viscosity&, LaneRange, PairEnergies&);
+extern template void pair_energies(const Particles<3>&, const NeighbourLists<3>&, const Kernel<3>&,
+                                   const FluxParameters&, const Tait&, const Viscosity&, LaneRange, PairEnergies&);
 extern template EnergyRates energy_rates(const Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&,
                                          const FluxParameters&, const Tait&, const Viscosity&, LaneRange);
 extern template EnergyRates energy_rates(const Particles<3>&, const NeighbourLists<3>&, const Kernel<3>&,

@@ -76,6 +76,7 @@ void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop) {
 
 template <int D>
 void rebuild_lists(Fluid<D>& fluid, NormalFluxWalls<D>& walls, BlockLoop loop) {
+    if (walls.is_periodic()) walls.images.periodic.wrap(fluid.particles);
     sort(fluid, loop);
     make_lists(fluid, &walls, loop);
     ++fluid.rebuilds;

@@ -185,7 +185,10 @@ TEST_CASE("every load and regulation goes on with the same bits") {
         CAPTURE(keys);
         check_restarts<2>(with(ledger, "algorithm = \"cps\"\nratio = 1\n", keys), seed++);
     }
-    check_restarts<2>(with(every_cycle(gate), "sound_speed", "walls = \"normal_flux\"\nsound_speed"), seed);
+    check_restarts<2>(with(every_cycle(gate), "sound_speed", "walls = \"normal_flux\"\nsound_speed"), seed++);
+    check_restarts<2>(with(with(ledger, "sound_speed", "walls = \"normal_flux\"\nsound_speed"), "ratio = 1\n",
+                           "ratio = 2\nload = \"energy_conservative\"\n"),
+                      seed);
 }
 
 TEST_CASE("cycles that are iterated go on with the same bits") {
@@ -225,11 +228,16 @@ TEST_CASE("water with moving walls, forces, probes and the energy ledger goes on
 
 TEST_CASE("walls of normal fluxes go on with the same bits") {
     check_restarts<2>(variant("walls = \"normal_flux\"\n"), 40);
-    check_restarts<2>(variant("walls = \"normal_flux\"\nintegration = \"verlet\"\n"), 41);
+    check_restarts<2>(variant("walls = \"normal_flux\"\nintegration = \"verlet\"\n", "energy_ledger = true\n"), 41);
 }
 
 TEST_CASE("a periodic channel goes on with the same bits") {
     check_restarts<2>(channel, 50, 3);
+    check_restarts<2>(with(with(with(channel, "viscosity = { dynamic = 1.0 }",
+                                     "viscosity = { dynamic = 1.0, operator = \"morris\" }\nwalls = \"normal_flux\""),
+                                "scheme = { name = \"riemann_ale\" }\n", ""),
+                           "transport = { name = \"shifting\" }", "transport = { name = \"x_sph\" }"),
+                      51, 3);
 }
 
 TEST_CASE("water in space goes on with the same bits") {

@@ -35,12 +35,18 @@ class FluxDriver {
             motion(walls.panels, at);
             walls.update_geometry();
         }
+        if (walls.is_periodic())
+            loop(walls.images.blocks(),
+                 [&](std::size_t block) { walls.images.update_state(s, Vec<D>(fluid.flux.gravity), block); });
         loop(fluid.blocks(), [&](std::size_t block) { walls.compute_gamma(s, fluid.kernel, block); });
         floored += walls.floored();
         loop(fluid.blocks(), [&](std::size_t block) {
             compute_gradients(s, fluid.lists, fluid.kernel, fluid.lanes(block), fluid.gradients());
             walls.complete_gradients(s, fluid.lists, fluid.kernel, fluid.flux, block);
         });
+        if (walls.is_periodic())
+            loop(walls.images.blocks(),
+                 [&](std::size_t block) { walls.images.update_gradients(s, Vec<D>(fluid.flux.gravity), block); });
         loop(fluid.blocks(), [&](std::size_t block) {
             compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.lanes(block));
             if (fluid.viscosity.dynamic > 0) {
@@ -55,12 +61,27 @@ class FluxDriver {
         if (!lists_hold(dt)) rebuild(loop);
         for (int stage = 0; stage < fluid.integration.stages(); ++stage) {
             rates(time + fluid.integration.stage_time(stage) * dt, loop);
+            if (fluid.ledger.kept) {
+                fluid.ledger.part.assign(1, energies());
+                fluid.ledger.accumulate(fluid.integration.scheme, stage, dt);
+            }
             loop(fluid.blocks(), [&](std::size_t block) {
                 advance_stage(fluid.particles, fluid.integration, fluid.tait, stage, dt, fluid.lanes(block));
             });
         }
         fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing);
         time += dt;
+    }
+
+    // Rates of all blocks, of_wall added up by wall.
+    EnergyRates energies(std::vector<double>* of_wall = nullptr) const {
+        EnergyRates rates;
+        std::vector<double> work(walls.panels.names.size(), 0.0);
+        for (std::size_t block = 0; block < fluid.blocks(); ++block)
+            rates.add(1, walls.energy_rates(fluid.particles, fluid.lists, fluid.kernel, fluid.flux, fluid.tait,
+                                            fluid.viscosity, fluid.spacing, block, work));
+        if (of_wall) *of_wall = work;
+        return rates;
     }
 
     double largest_step() const {

@@ -35,13 +35,28 @@
 //
 // What a particle sees: pairs whose segment crosses a panel are apart, and quadrature points are seen from their front
 // if nothing lies between. γ counts what is seen.
+//
+// In a periodic domain panels are repeated a period away in every periodic direction, copies that follow their
+// originals and hand on to them what they bear, and particles near the seam have images beyond it (ghosts.hpp).
+//
+// Where the energy goes: the work of a wall is minus its reaction (add_reactions) times its velocity, point by point,
+// so that a uniform velocity of water and walls changes work and kinetic energy alike. Of the rest, with the pairs of
+// (5.36), (5.37) and their 1/γ_i, friction heat likewise,
+//     E_V        Σ_i (ω_i/γ_i) {Σ_j [p_i (2 v_e - v_i - v_j) + ½ Π' (v_j - v_i)]·∇W_ij ω_j
+//                               + Σ_s (p_s - p_L)(v_i·n_s - u_s) W_is A_s}
+//     defect     what the division by γ_i leaves of pairs that give and take the same without it, C0, C1 and the
+//                reconstruction at the wall: no dissipation, of either sign, and vanishing with the spacing
+// (thesis (5.38) instead takes a force that does not add up to the water's momentum.)
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "physics/fluid/energy_ledger.hpp"
 #include "physics/fluid/fluxes.hpp"
 #include "physics/fluid/walls/escape.hpp"
 #include "physics/fluid/walls/gamma.hpp"
+#include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/walls/sight.hpp"
 #include "physics/fluid/walls/wall_points.hpp"
 
@@ -66,19 +81,25 @@ double friction_factor(const Panels<D>& panels, double support_ratio) {
 template <int D>
 class NormalFluxWalls {
   public:
-    Panels<D> panels;
+    Panels<D> panels;      // copies in a periodic domain behind the others
+    GhostWalls<D> images;  // of particles in a periodic domain: without panels
     WallPoints<D> points;
     Sight<D> sight;
     WallPressure pressure = WallPressure::riemann;
     std::size_t floor_count = 0;  // how often γ has met its floor: summed up by whoever calls compute_gamma
 
-    // Cuts the panels, decides which particles see which points within `reach`, and takes all ghosts away. Particles up
-    // to half a spacing behind a panel still count as in front of it.
+    // Repeats the walls in the periodic directions; once, when all panels are there. Throws std::invalid_argument for a
+    // wall that overlaps its own copy.
+    void repeat(const Periodic<D>& periodic);
+    bool is_periodic() const { return images.periodic.any(); }
+
+    // Cuts the panels, decides which particles see which points within `reach`, and takes all ghosts away but for
+    // periodic images. Particles up to half a spacing behind a panel still count as in front of it.
     void rebuild(Particles<D>& particles, double spacing, double reach, BlockLoop loop);
     // For a checkpoint. Everything else is made by rebuild() and update_geometry().
     template <class Archive>
     void archive(Archive& fields) {
-        fields(panels.position, panels.velocity, floor_count);
+        fields(panels.position, panels.velocity, floor_count, images);
     }
     // Panels and points after the vertices have moved.
     void update_geometry();
@@ -116,6 +137,12 @@ class NormalFluxWalls {
     // by weight. Where walls meet, one carries a part of what belongs to the other, on a strip of about R/10.
     void add_reactions(const Particles<D>& particles, const Kernel<D>& kernel, const FluxParameters& parameters,
                        std::vector<Vec<D>>& vertex_forces) const;
+
+    // Energy rates of the particles of one block, after add_fluxes and in the state that it has read; the work of walls
+    // also by wall, added to of_wall (an entry for each of panels.names).
+    EnergyRates energy_rates(const Particles<D>& particles, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
+                             const FluxParameters& parameters, const Tait& tait, const Viscosity& viscosity,
+                             double spacing, std::size_t block, std::span<double> of_wall) const;
 
     // Puts particles that have come to lie behind a panel back onto it and takes their velocity towards it
     // (ghosts.hpp). Returns how many.
@@ -182,7 +209,21 @@ class NormalFluxWalls {
         for (int d = 0; d < D; ++d) x[d] = s.x[std::size_t(d)][i];
         return x;
     }
+    // Calls f(point, force) for what the k-th near-wall particle of a block does to the points that it sees.
+    template <class K, class F>
+    void each_reaction(const NearBlock& block, std::size_t k, const Particles<D>& particles, const K& kernel,
+                       const FluxParameters& parameters, F&& f) const;
+    struct WallEnergies {  // of one particle
+        double dissipated = 0, heat = 0;
+    };
+    template <class K>
+    WallEnergies wall_energies(const NearBlock& block, std::size_t k, const Particles<D>& particles, const K& kernel,
+                               const FluxParameters& parameters, double viscosity, double spacing) const;
+    // Minus the reactions of these particles times the velocity of the wall, added up by wall.
+    void add_powers(const NearBlock& block, std::size_t k, const Particles<D>& particles, const Kernel<D>& kernel,
+                    const FluxParameters& parameters, std::span<double> of_wall) const;
     void add_to_vertices(std::size_t point, const Vec<D>& force, std::vector<Vec<D>>& vertex_forces) const;
+    void place_copies();
     void bin_points(double reach);
     bool sees_an_end(const Vec<D>& x, double reach, const std::vector<std::int32_t>& piece, std::size_t first) const;
     void collect(const Particles<D>& particles, double reach, std::size_t block);
@@ -191,7 +232,12 @@ class NormalFluxWalls {
     template <class F>
     void each_foot(const Particles<D>& particles, F&& f) const;
 
+    struct Copied {  // a vertex of a copy
+        int from;
+        int copy;  // periodic.hpp
+    };
     std::vector<NearBlock> near_;
+    std::vector<Copied> copied_;  // the last vertices of panels
     Scalars gamma_;
     double spacing_ = 0;
     std::vector<double> wall_pressure_, wetness_;  // of points

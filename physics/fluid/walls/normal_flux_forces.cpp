@@ -67,8 +67,12 @@ template <int D>
 void NormalFluxWalls<D>::add_to_vertices(std::size_t point, const Vec<D>& force,
                                          std::vector<Vec<D>>& vertex_forces) const {
     const auto& cell = points.cell[point];
-    for (std::size_t a = 0; a < D; ++a)
-        vertex_forces[std::size_t(panels.panels[std::size_t(cell.panel)].vertex[a])] += cell.centre[a] * force;
+    for (std::size_t a = 0; a < D; ++a) {
+        auto vertex = std::size_t(panels.panels[std::size_t(cell.panel)].vertex[a]);
+        const std::size_t originals = panels.position.size() - copied_.size();
+        if (vertex >= originals) vertex = std::size_t(copied_[vertex - originals].from);
+        vertex_forces[vertex] += cell.centre[a] * force;
+    }
 }
 
 template <int D>
@@ -78,40 +82,57 @@ void NormalFluxWalls<D>::add_reactions(const Particles<D>& s, const Kernel<D>& k
 }
 
 template <int D>
+template <class K, class F>
+void NormalFluxWalls<D>::each_reaction(const NearBlock& b, std::size_t k, const Particles<D>& s, const K& kernel,
+                                       const FluxParameters& parameters, F&& f) const {
+    const PointFields<D> fields(points);
+    const std::size_t i = b.near[k].particle;
+    Vec<D> rest;
+    for (int d = 0; d < D; ++d) rest[d] = -b.reaction[k * D + std::size_t(d)];
+    const WallFlux<D> own(s, i, parameters, pressure, s.volume[i] / s.mass[i]);
+    const Range range = points_of(b, k);
+    // First the pressure on each point, then the rest on all by weight.
+    double weights = 0, weight = 0, p_s = 0, dilation = 0;
+    for (std::size_t q = range.begin; q < range.end; ++q) {
+        const std::size_t point = b.point[q];
+        if (point == points.size()) continue;
+        own(fields, point, kernel, weight, p_s, dilation);
+        weights += weight;
+        Vec<D> force;
+        for (int d = 0; d < D; ++d) force[d] = s.volume[i] * (own.p + p_s) * weight * fields.n[d][point];
+        rest -= force;
+        f(point, force);
+    }
+    if (weights == 0) return f(b.point[range.begin], rest);  // nothing but rounding
+    for (std::size_t q = range.begin; q < range.end; ++q) {
+        const std::size_t point = b.point[q];
+        if (point == points.size()) continue;
+        own(fields, point, kernel, weight, p_s, dilation);
+        f(point, Vec<D>(weight / weights * rest));
+    }
+}
+
+template <int D>
 template <class K>
 void NormalFluxWalls<D>::add_reactions_with(const Particles<D>& s, const K& kernel, const FluxParameters& parameters,
                                             std::vector<Vec<D>>& vertex_forces) const {
-    const PointFields<D> fields(points);
     for (const NearBlock& b : near_)
-        for (std::size_t k = 0; k < b.near.size(); ++k) {
-            const std::size_t i = b.near[k].particle;
-            Vec<D> rest;
-            for (int d = 0; d < D; ++d) rest[d] = -b.reaction[k * D + std::size_t(d)];
-            const WallFlux<D> own(s, i, parameters, pressure, s.volume[i] / s.mass[i]);
-            const Range range = points_of(b, k);
-            // First the pressure on each point, then the rest on all by weight.
-            double weights = 0, weight = 0, p_s = 0, dilation = 0;
-            for (std::size_t q = range.begin; q < range.end; ++q) {
-                const std::size_t point = b.point[q];
-                if (point == points.size()) continue;
-                own(fields, point, kernel, weight, p_s, dilation);
-                weights += weight;
-                Vec<D> force;
-                for (int d = 0; d < D; ++d) force[d] = s.volume[i] * (own.p + p_s) * weight * fields.n[d][point];
-                rest -= force;
+        for (std::size_t k = 0; k < b.near.size(); ++k)
+            each_reaction(b, k, s, kernel, parameters, [&](std::size_t point, const Vec<D>& force) {
                 add_to_vertices(point, force, vertex_forces);
-            }
-            if (weights == 0) {  // nothing but rounding
-                add_to_vertices(b.point[range.begin], rest, vertex_forces);
-                continue;
-            }
-            for (std::size_t q = range.begin; q < range.end; ++q) {
-                const std::size_t point = b.point[q];
-                if (point == points.size()) continue;
-                own(fields, point, kernel, weight, p_s, dilation);
-                add_to_vertices(point, weight / weights * rest, vertex_forces);
-            }
-        }
+            });
+}
+
+template <int D>
+void NormalFluxWalls<D>::add_powers(const NearBlock& b, std::size_t k, const Particles<D>& s, const Kernel<D>& kernel,
+                                    const FluxParameters& parameters, std::span<double> of_wall) const {
+    kernel.visit([&](const auto& w) {
+        each_reaction(b, k, s, w, parameters, [&](std::size_t point, const Vec<D>& force) {
+            double power = 0;
+            for (int d = 0; d < D; ++d) power -= force[d] * points.velocity[std::size_t(d)][point];
+            of_wall[std::size_t(panels.panels[std::size_t(points.cell[point].panel)].wall)] += power;
+        });
+    });
 }
 
 template <int D>
@@ -176,6 +197,10 @@ void NormalFluxWalls<D>::add_pressure_forces_with(const Particles<D>& s, const K
     }
 }
 
+template void NormalFluxWalls<2>::add_powers(const NearBlock&, std::size_t, const Particles<2>&, const Kernel<2>&,
+                                             const FluxParameters&, std::span<double>) const;
+template void NormalFluxWalls<3>::add_powers(const NearBlock&, std::size_t, const Particles<3>&, const Kernel<3>&,
+                                             const FluxParameters&, std::span<double>) const;
 template Vec<2> NormalFluxWalls<2>::shear_rate(const Particles<2>&, std::size_t, std::size_t, double) const;
 template Vec<3> NormalFluxWalls<3>::shear_rate(const Particles<3>&, std::size_t, std::size_t, double) const;
 template void NormalFluxWalls<2>::add_to_vertices(std::size_t, const Vec<2>&, std::vector<Vec<2>>&) const;

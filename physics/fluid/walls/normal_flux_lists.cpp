@@ -2,13 +2,80 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "physics/fluid/walls/normal_flux.hpp"
 
 namespace aquagraph::fluid {
 
+namespace {
+
+// True if two panels lie in one plane, face the same way and cover an area both.
+template <int D>
+bool overlap(const Panels<D>& panels, std::size_t k, std::size_t l) {
+    constexpr double hair = 1e-6;
+    if (panels.normal[k].dot(panels.normal[l]) < 1 - hair) return false;
+    const double size = (panels.vertex(k, 1) - panels.start(k)).norm();
+    for (std::size_t a = 0; a < D; ++a)
+        if (std::fabs(panels.height(k, panels.vertex(l, a))) > hair * size) return false;
+    // Apart if one has the other beyond one of its sides.
+    for (const auto& [one, other] : {std::pair(k, l), std::pair(l, k)})
+        for (std::size_t side = 0; side < D; ++side) {
+            bool beyond = true;
+            for (std::size_t a = 0; a < D; ++a)
+                beyond = beyond && panels.shape_functions(one, panels.vertex(other, a))[side] < hair;
+            if (beyond) return false;
+        }
+    return true;
+}
+
+}  // namespace
+
+template <int D>
+void NormalFluxWalls<D>::repeat(const Periodic<D>& periodic) {
+    images.periodic = periodic;
+    panels.update_geometry();
+    const std::size_t n = panels.size();
+    const int vertices = int(panels.position.size());
+    for (int copy = 1, first = vertices; copy < Periodic<D>::copies; ++copy) {
+        if (!periodic.exists(copy)) continue;
+        for (int v = 0; v < vertices; ++v) {
+            copied_.push_back({v, copy});
+            panels.position.push_back(panels.position[std::size_t(v)] + periodic.shift(copy));
+            panels.velocity.push_back(panels.velocity[std::size_t(v)]);
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            Panel<D> panel = panels.panels[k];
+            for (int& v : panel.vertex) v += first;
+            panel.wet = false;
+            panels.panels.push_back(panel);
+        }
+        first += vertices;
+    }
+    panels.copies = panels.size() - n;
+    panels.update_geometry();
+    for (std::size_t l = n; l < panels.size(); ++l)
+        for (std::size_t k = 0; k < n; ++k)
+            if (overlap(panels, k, l))
+                throw std::invalid_argument("wall '" + panels.name(k) +
+                                            "' is longer than the period and lies on its own copy, which walls of "
+                                            "normal fluxes would count twice: let it end at the edge of the domain");
+}
+
+template <int D>
+void NormalFluxWalls<D>::place_copies() {
+    const std::size_t originals = panels.position.size() - copied_.size();
+    for (std::size_t v = 0; v < copied_.size(); ++v) {
+        const auto from = std::size_t(copied_[v].from);
+        panels.position[originals + v] = panels.position[from] + images.periodic.shift(copied_[v].copy);
+        panels.velocity[originals + v] = panels.velocity[from];
+    }
+}
+
 template <int D>
 void NormalFluxWalls<D>::update_geometry() {
+    place_copies();
     panels.update_geometry();
     points.update(panels);
 }
@@ -16,9 +83,13 @@ void NormalFluxWalls<D>::update_geometry() {
 template <int D>
 void NormalFluxWalls<D>::rebuild(Particles<D>& particles, double spacing, double reach, BlockLoop loop) {
     spacing_ = spacing;
+    place_copies();
     panels.update_geometry();
     points.cut(panels, spacing);
-    particles.resize(particles.count, 0);
+    if (is_periodic())
+        images.rebuild(particles, spacing, reach, Vec<D>::Zero());
+    else
+        particles.resize(particles.count, 0);
     sight.prepare(particles, panels, reach, 0.5 * spacing);
     bin_points(reach);
     // Joints of each panel, by a counting sort.

@@ -44,6 +44,7 @@ struct Panels {
     std::vector<Vec<D>> position, velocity;  // of vertices [m], [m/s]
     std::vector<Panel<D>> panels;
     std::vector<std::string> names;  // of walls
+    std::size_t copies = 0;          // the last panels repeat others in a periodic domain (walls of normal fluxes)
 
     std::vector<Joint<D>> joints;  // by find_joints(), once all walls are there
 

@@ -124,16 +124,16 @@ void Sight<D>::prepare(const Particles<D>& particles, const Panels<D>& panels, d
         }
     }
 
-    place_.resize(particles.count);
-    cell_.resize(particles.count);
+    place_.resize(particles.size());
+    cell_.assign(particles.size(), nullptr);
     const double in_front = 1e-3 * tolerance;
-    for (std::size_t i = 0; i < particles.count; ++i) {
+    const auto settle = [&](std::size_t i) {
         Vec<D>& x = place_[i];
         for (int d = 0; d < D; ++d) x[d] = particles.x[std::size_t(d)][i];
         const int bin = used_ > 0 ? bins_.at(x) : -1;
         const int cell = bin < 0 ? -1 : of_bin_[std::size_t(bin)];
-        cell_[i] = cell < 0 ? nullptr : &cells_[std::size_t(cell)];
-        if (!cell_[i]) continue;
+        if (cell < 0) return;
+        cell_[i] = &cells_[std::size_t(cell)];
         for (const int k : cell_[i]->panel) {
             const auto panel = std::size_t(k);
             const double h = panels.height(panel, x);
@@ -141,7 +141,9 @@ void Sight<D>::prepare(const Particles<D>& particles, const Panels<D>& panels, d
             const auto shape = panels.shape_functions(panel, x);
             if (*std::min_element(shape.begin(), shape.end()) >= 0) x += (in_front - h) * panels.normal[panel];
         }
-    }
+    };
+    for (std::size_t i = 0; i < particles.count; ++i) settle(i);
+    for (std::size_t g = 0; g < particles.ghost_count; ++g) settle(particles.ghost_begin() + g);
 }
 
 template <int D>

@@ -1,4 +1,5 @@
-// What the particles of a fluid without ghosts see past walls: two particles whose segment crosses a panel are apart.
+// What the particles of a fluid without mirror images see past walls: two particles, or a particle and the periodic
+// image of one, whose segment crosses a panel are apart.
 // Particles that have slid behind a panel by less than a tolerance are taken to be just in front of it.
 #pragma once
 #include <vector>
@@ -73,7 +74,7 @@ class Sight : public PairFilter<D> {
     std::vector<int> of_bin_;  // index into cells_, or -1
     std::vector<Cell> cells_;  // the first used_ of them; the others keep their memory
     std::size_t used_ = 0;
-    std::vector<Vec<D>> place_;
+    std::vector<Vec<D>> place_;      // of all lanes in use, images too
     std::vector<const Cell*> cell_;  // of each particle
 };
 

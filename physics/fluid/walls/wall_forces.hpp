@@ -19,6 +19,7 @@ class WallForces {
   public:
     // wall: index into Panels::names.
     explicit WallForces(int wall) : wall_(wall) {}
+    int wall() const { return wall_; }
 
     // Collects the pairs of the present neighbour lists. Does nothing if they are those of the last call.
     void rebuild(const Fluid<D>& fluid, const GhostWalls<D>& walls);
@@ -62,7 +63,7 @@ extern template class WallForces<3>;
 template <int D>
 struct WallWork {
     std::string name;
-    WallForces<D> pairs;
+    WallForces<D> pairs;  // of ghosts; walls of normal fluxes find their work themselves
     EnergyLedger ledger;
 
     template <class Archive>
