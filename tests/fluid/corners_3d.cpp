@@ -270,3 +270,33 @@ TEST_CASE("inside a sphere and around one: the support is full on average") {
         CHECK(near.most_unity < 1.25);
     }
 }
+
+TEST_CASE("around the blunt edge of a step in space every place is seen once") {
+    // A step of 7 spacings in a tank of 14 × 5: its lower floor's corner is further from the upper floor than R, nearer
+    // than R to the images behind it.
+    const double a = 7 * spacing, b = 14 * spacing, w = 5 * spacing, top = 2;
+    const auto points = cells_where({14, 5, 14}, spacing, [&](const Vec3& x) { return x.x() < a || x.z() > a; });
+    Panels<3> panels;
+    const std::vector<Vec2> profile{{0, top}, {0, 0}, {a, 0}, {a, a}, {b, a}, {b, top}};
+    std::vector<Vec3> corners;
+    for (const double y : {0.0, w})
+        for (const Vec2& x : profile) corners.emplace_back(x.x(), y, x.y());
+    std::vector<std::array<int, 3>> triangles;
+    for (int k = 0; k < 5; ++k) {
+        triangles.push_back({k, k + 1, k + 7});
+        triangles.push_back({k, k + 7, k + 6});
+    }
+    for (const auto& [x, y, z] : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}}) {
+        triangles.push_back({x, z, y});
+        triangles.push_back({x + 6, y + 6, z + 6});
+    }
+    panels.add_wall("tank", corners, triangles, false);
+    const Driver<3> driver = settle(points, spacing, panels);
+    const Spread near = spread(driver, [&](const Vec3& x) { return x.z() < b - R; });
+    CAPTURE(near.least_unity);
+    CAPTURE(near.most_unity);
+    CHECK(near.count > 300);
+    // Beside the side walls some lines of sight pass through the very edge of the step and its corner at once.
+    CHECK(near.least_unity > 0.97 * inside().least_unity);
+    CHECK(near.most_unity < 1.01 * inside().most_unity);
+}

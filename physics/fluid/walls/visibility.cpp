@@ -123,8 +123,11 @@ bool Visibility<D>::sees(std::size_t i, const Cell& cell, std::size_t lane, int*
     // Past the end of a wall that just stops, a ghost is seen from the wall's front.
     if (crossing.entry < 0) return in_front_of(ghost->panel);
     if (of(*entry) != of(ghost->panel)) return false;
-    // The reflected line of sight, from where it enters the wall to the parent.
-    const Vec<D> foot = place_[i] + crossing.along * (target - place_[i]);
+    // The reflected line of sight, from where it enters the wall, or a hair off it, to the parent: at an edge the other
+    // side would else hide the parent or not as rounding has it.
+    constexpr double hair = 1e-9;
+    Vec<D> foot = place_[i] + crossing.along * (target - place_[i]);
+    foot += hair * (place_[ghost->parent] + copy - foot);
     if constexpr (D == 2) {
         const Cell* parents = cell_[ghost->parent];
         return !parents ||
