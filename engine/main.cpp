@@ -3,6 +3,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "engine/calculix_command.hpp"
@@ -164,6 +165,10 @@ int main(int argc, char** argv) {
             if (command->parsed()) return action();
     } catch (const io::SceneError& error) {  // begins with its place
         std::cerr << error.what() << "\n";
+    } catch (const std::bad_alloc&) {
+        std::cerr
+            << "aquagraph: the memory of this machine is too small for this scene: take a larger spacing, or fewer "
+               "elements\n";
     } catch (const std::exception& error) {
         std::cerr << "aquagraph: " << error.what() << "\n";
     }

@@ -100,6 +100,15 @@ void validate_region(const Scene& scene, const RegionScene& region, Complaints& 
                                    fmt::format("it reaches from {} m to {} m", low[D - 1], high[D - 1]));
                     return;
                 }
+                double cells = 1;
+                for (int d = 0; d < D; ++d) cells *= (high[d] - low[d]) / spacing_of(scene);
+                if (cells > most_particles) {
+                    complaints.add(key,
+                                   fmt::format("the lattice around this water has {:.2g} points, more than {:.2g}",
+                                               cells, most_particles),
+                                   "take a larger [fluid] spacing, or less water");
+                    return;
+                }
                 for (int d = 0; d < D; ++d) {
                     const double end = d == D - 1 ? top : high[d];
                     if (low[d] >= scene.domain.min[std::size_t(d)] - tolerance &&

@@ -5,6 +5,11 @@
 
 namespace aquagraph::io {
 
+// Neighbour lists know particles by numbers of 32 bits.
+inline constexpr double most_particles = 2e9;
+// Nodes have numbers of 31 bits, and there are up to four of them per element.
+inline constexpr double most_elements = 2e8;
+
 void validate_wall_shapes(const Scene& scene, Complaints& complaints);
 void validate_motions(const Scene& scene, Complaints& complaints);
 void validate_regions(const Scene& scene, Complaints& complaints);

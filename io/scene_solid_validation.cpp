@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/comparison.hpp"
+#include "io/scene_geometry_validation.hpp"
 #include "io/scene_solid_conditions_validation.hpp"
 #include "io/scene_solid_sets.hpp"
 #include "io/scene_words.hpp"
@@ -78,6 +79,12 @@ class SolidValidation {
                                     "min is the lower left corner, max the upper right one");
                     break;
                 }
+        double elements = 1;
+        for (const int along : solid_.elements) elements *= std::max(along, 1);  // no third count in two dimensions
+        if (box && elements > most_elements && !complaints_.touch("solid.box"))
+            complaints_.add("solid.box.elements",
+                            fmt::format("{:.2g} elements are more than {:.2g}", elements, most_elements),
+                            "take fewer along each side");
         if (scene_.fluid && solid_.element_order == 1 && !complaints_.touch("solid.order"))
             complaints_.add("solid.order", "a body in water needs elements with nodes on their edges",
                             "take `order` out");

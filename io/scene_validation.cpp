@@ -186,11 +186,17 @@ class Validation {
         const double tolerance = spacing_known ? touching * fluid.spacing : 0;
         const bool domain_known = !complaints_.touch("domain") && complaints_.positions.contains("domain");
         std::vector<bool> sound(fluid.boxes.size());
+        double particles = 0;
         for (std::size_t i = 0; i < fluid.boxes.size(); ++i) {
             const Box& box = fluid.boxes[i];
             sound[i] = ordered(box, element("fluid.box", i));
             if (!sound[i]) continue;
-            if (spacing_known) thin(box, i, fluid.spacing);
+            if (spacing_known) {
+                thin(box, i, fluid.spacing);
+                double cells = 1;
+                for (std::size_t d = 0; d < box.min.size(); ++d) cells *= (box.max[d] - box.min[d]) / fluid.spacing;
+                particles += cells;
+            }
             if (domain_known) inside_domain(box, i, tolerance);
             for (std::size_t j = 0; j < i; ++j)
                 if (const auto common = overlap(box, fluid.boxes[j], tolerance); sound[j] && common)
@@ -204,6 +210,11 @@ class Validation {
                                     fmt::format("water box {} overlaps the solid box in {}", i + 1, text(*common)),
                                     fmt::format("let it end at the solid, which fills {}", text(*scene_.solid->box)));
         }
+        if (particles > most_particles)
+            complaints_.add(
+                "fluid.spacing",
+                fmt::format("the water would be {:.2g} particles, more than {:.2g}", particles, most_particles),
+                "take a larger spacing, or less water");
     }
 
     void periodic(bool domain_known) {

@@ -343,6 +343,11 @@ TEST_CASE("keys that would do nothing") {
            "relax = true");
 }
 
+TEST_CASE("more particles or elements than can be counted") {
+    expect("spacing = 0.1", "spacing = 1e-7", 9, 11, "the water would be 5e+13 particles", "take a larger spacing");
+    expect("elements = [1, 5]", "elements = [100000, 100000]", 22, 12, "1e+10 elements are more than", "take fewer");
+}
+
 TEST_CASE("parts that a scene needs together") {
     const std::string head = "schema_version = 1\n[time]\nend = 1.0\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n";
     const std::string none = error_of(head);

@@ -170,6 +170,8 @@ TEST_CASE("bodies of water that cannot be") {
     refused(2, "[[fluid.polygon]]\npoints = [[2.0, 2.0], [3.0, 3.0], [3.0, 2.0], [2.0, 3.0]]", 1, "cuts through");
     refused(2, "[[fluid.polygon]]\npoints = [[2.0, 2.0], [30.0, 2.0], [3.0, 3.0]]", 0, "out of the domain: in x");
     refused(2, "[[fluid.disc]]\ncentre = [3.0, 3.0]\nradius = 1.0\nlevel = 1.0", 3, "the level 1 m lies below");
+    refused(2, "[[fluid.polygon]]\npoints = [[2.0, 2.0], [2e5, 2.0], [2e5, 2e5]]", 0,
+            "the lattice around this water has 4e+12 points");
     refused(3, "[[fluid.volume]]\nstl = \"hole.stl\"\ntranslate = [3.0, 3.0, 3.0]", 1, "not watertight");
     refused(3, "[[fluid.disc]]\ncentre = [3.0, 3.0, 3.0]\nradius = 1.0", 0, "`fluid.disc` is for two dimensions");
     const io::Scene scene = read(scene_of(3,
