@@ -11,7 +11,7 @@ Task central_force(fluid::Fluid<D>& fluid, const fluid::CentralForce<D>& force, 
             .reads = {resource::fluid_lists, resource::fluid_state},
             .writes = {resource::fluid_rates},
             .body = [&fluid, &force] {
-                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                for_each_block(fluid.blocks(), blocks_without_pairs, [&](std::size_t block) {
                     add_central_force(fluid.particles, force, fluid.lanes(block));
                 });
             }};
@@ -23,7 +23,7 @@ Task driving_force(fluid::Fluid<D>& fluid, const std::array<double, D>& a, const
             .reads = {resource::fluid_lists},
             .writes = {resource::fluid_rates},
             .body = [&fluid, &a] {
-                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                for_each_block(fluid.blocks(), blocks_without_pairs, [&](std::size_t block) {
                     add_driving_force<D>(fluid.particles, a, fluid.lanes(block));
                 });
             }};

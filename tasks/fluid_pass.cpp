@@ -115,7 +115,7 @@ Task prediction(fluid::Fluid<D>& fluid, const Clock& clock) {
             .reads = {resource::clock_step, resource::fluid_lists, resource::fluid_rates, resource::fluid_shift},
             .writes = {resource::fluid_state},
             .body = [&fluid, &clock] {
-                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                for_each_block(fluid.blocks(), blocks_without_pairs, [&](std::size_t block) {
                     predict(fluid.particles, fluid.integration, fluid.tait, clock.step, fluid.lanes(block));
                 });
             }};
@@ -128,7 +128,7 @@ Task integration_stage(fluid::Fluid<D>& fluid, const Clock& clock, int stage) {
             .reads = {resource::clock_step, resource::fluid_lists, resource::fluid_rates, resource::fluid_shift},
             .writes = {resource::fluid_state},
             .body = [&fluid, &clock, stage] {
-                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                for_each_block(fluid.blocks(), blocks_without_pairs, [&](std::size_t block) {
                     advance_stage(fluid.particles, fluid.integration, fluid.tait, stage, clock.step,
                                   fluid.lanes(block));
                 });

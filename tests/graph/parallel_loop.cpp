@@ -26,6 +26,27 @@ TEST_CASE("every block runs exactly once") {
     }
 }
 
+TEST_CASE("blocks taken together run exactly once, neighbours one after the other on one thread") {
+    for (const int threads : {1, 2, 4}) {
+        Executor executor(threads);
+        for (const std::size_t blocks : {0U, 1U, 7U, 8U, 9U, 100U}) {
+            std::vector<int> count(blocks);
+            std::vector<std::thread::id> by(blocks);
+            executor.execute([&] {
+                for_each_block(blocks, 8, [&](std::size_t block) {
+                    if (block % 8 != 0) CHECK(count[block - 1] == 1);
+                    ++count[block];
+                    by[block] = std::this_thread::get_id();
+                });
+            });
+            for (std::size_t block = 0; block < blocks; ++block) {
+                CHECK(count[block] == 1);
+                CHECK(by[block] == by[block - block % 8]);
+            }
+        }
+    }
+}
+
 TEST_CASE("one block, or one thread, stays on the calling thread and in order") {
     const std::thread::id self = std::this_thread::get_id();
     Executor executor(1);
@@ -70,6 +91,8 @@ TEST_CASE("reductions are bitwise the same on any number of threads") {
                     const double sum = reduce_blocks(blocks, 0.0, map, add, std::span(scratch));
                     if (threads == 1 && trial == 0) reference = sum;
                     REQUIRE(std::bit_cast<std::uint64_t>(sum) == std::bit_cast<std::uint64_t>(reference));
+                    const double together = reduce_blocks(blocks, 0.0, map, add, std::span(scratch), 8);
+                    REQUIRE(std::bit_cast<std::uint64_t>(together) == std::bit_cast<std::uint64_t>(reference));
                     const double least = reduce_blocks(blocks, 1e300, map, smaller);
                     REQUIRE(least == *std::min_element(values.begin(), values.end()));
                 });

@@ -64,7 +64,7 @@ class GhostWalls {
     Vec<D> before_wall(const Particles<D>& particles, const Ghost& ghost) const;
 
   private:
-    static constexpr std::size_t ghosts_per_block = 1024;
+    static constexpr std::size_t ghosts_per_block = 256;  // so that the ghosts of a small scene keep two threads busy
     // x_G = origin + S (x_j - origin), v_G = T v_j + (1 - T) v_w
     struct Mirror {
         Vec<D> image, wall_velocity;
