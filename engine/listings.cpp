@@ -221,7 +221,9 @@ CycleListing coupling_cycle(Model<D>& model, const io::CouplingScene& coupling, 
     for (int step = 1; step <= p; ++step) {
         const std::string label = "step " + std::to_string(step);
         steps.group(label);
-        if (!fixed) steps.add(tasks::time_step(*model.fluid, model.clock, step == 1, label));
+        if (!fixed)
+            steps.add(tasks::time_step(*model.fluid, model.clock, coupled ? &model.cycle_step.held : nullptr, step == 1,
+                                       label));
         steps.fluid_step(label);
     }
     if constexpr (D == 2)

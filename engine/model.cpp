@@ -13,6 +13,8 @@ namespace aquagraph::engine {
 
 namespace {
 
+constexpr double step_band = 0.01;  // in which the step of a coupled run stays the same
+
 template <int D>
 fluid::Fluid<D> make_fluid(const io::Scene& scene) {
     const io::FluidScene& from = *scene.fluid;
@@ -128,6 +130,7 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
             model->interface = make_interface(scene, *model);
             model->cycle_step.rule = scene.coupling.step_rule;
             model->cycle_step.fraction = scene.coupling.step_fraction;
+            model->cycle_step.held.band = step_band;
             if (model->interface->keeps_energy)
                 model->wall_works.push_back(
                     {scene.solid->name, fluid::WallForces<2>(model->interface->surface.wall()), {}});

@@ -20,7 +20,7 @@ fluid::StepLimits largest_step(const fluid::Fluid<D>& fluid, std::vector<fluid::
             return step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
                                fluid.viscosity_of_step());
         },
-        fluid::combine, std::span<fluid::StepLimits>(scratch));
+        fluid::combine, std::span<fluid::StepLimits>(scratch), blocks_without_pairs);
 }
 
 // `steps` of `wanted` each, or shorter ones to the end of the run.
@@ -36,14 +36,16 @@ void set_step(Clock& clock, double wanted, const fluid::StepLimits& limits, int 
 }  // namespace
 
 template <int D>
-Task time_step(fluid::Fluid<D>& fluid, Clock& clock, bool first_of_cycle, const std::string& label) {
+Task time_step(fluid::Fluid<D>& fluid, Clock& clock, coupling::HeldStep* held, bool first_of_cycle,
+               const std::string& label) {
     auto scratch = std::make_shared<std::vector<fluid::StepLimits>>();
     return {.name = "time step (" + label + ")",
             .reads = {resource::fluid_lists, resource::fluid_state, resource::fluid_rates},
             .writes = {resource::clock},
-            .body = [&fluid, &clock, first_of_cycle, scratch] {
+            .body = [&fluid, &clock, held, first_of_cycle, scratch] {
                 const fluid::StepLimits limits = largest_step(fluid, *scratch);
-                set_step(clock, limits.step(), limits, 1);
+                const double wanted = limits.step();
+                set_step(clock, held ? held->next(wanted, wanted) : wanted, limits, 1);
                 clock.cycle = (first_of_cycle ? 0 : clock.cycle) + clock.step;
             }};
 }
@@ -80,7 +82,7 @@ Task examine(fluid::Fluid<D>& fluid, const std::string& label) {
             .writes = {},
             .body = [&fluid, found] {
                 found->resize(fluid.blocks());
-                for_each_block(fluid.blocks(), [&](std::size_t block) {
+                for_each_block(fluid.blocks(), blocks_without_pairs, [&](std::size_t block) {
                     (*found)[block] = examine(fluid.particles, fluid.tait.reference_density, fluid.domain, fluid.closed,
                                               fluid.lanes(block));
                 });
@@ -102,8 +104,8 @@ Task examine(fluid::Fluid<D>& fluid, const std::string& label) {
             }};
 }
 
-template Task time_step(fluid::Fluid<2>&, Clock&, bool, const std::string&);
-template Task time_step(fluid::Fluid<3>&, Clock&, bool, const std::string&);
+template Task time_step(fluid::Fluid<2>&, Clock&, coupling::HeldStep*, bool, const std::string&);
+template Task time_step(fluid::Fluid<3>&, Clock&, coupling::HeldStep*, bool, const std::string&);
 template Task cycle_step(fluid::Fluid<2>&, Clock&, coupling::CycleStep&, int);
 template Task cycle_step(fluid::Fluid<3>&, Clock&, coupling::CycleStep&, int);
 template Task examine(fluid::Fluid<2>&, const std::string&);

@@ -11,9 +11,10 @@
 namespace aquagraph::tasks {
 
 // Chooses Δt, the largest stable step, cut so that it ends at the end of the run at the latest, and adds it to the
-// cycle's length, which begins anew where it is the first of the cycle.
+// cycle's length, which begins anew where it is the first of the cycle. held: null where nothing asks for equal steps.
 template <int D>
-Task time_step(fluid::Fluid<D>& fluid, Clock& clock, bool first_of_cycle, const std::string& label);
+Task time_step(fluid::Fluid<D>& fluid, Clock& clock, coupling::HeldStep* held, bool first_of_cycle,
+               const std::string& label);
 // Chooses one Δt for all `steps` of a cycle by the cycle's rule, cut likewise.
 template <int D>
 Task cycle_step(fluid::Fluid<D>& fluid, Clock& clock, coupling::CycleStep& rule, int steps);

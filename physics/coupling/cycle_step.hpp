@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "physics/coupling/choices.hpp"
+#include "physics/coupling/held_step.hpp"
 
 namespace aquagraph::coupling {
 
@@ -21,6 +22,7 @@ struct CycleStep {
     double margin = 0;    // m
     double overstep = 0;  // of the last step of the cycle before
     int steps = 1;        // p of the present cycle
+    HeldStep held = {};   // also of the steps of CSS, which knows nothing else of this
 
     static constexpr double most_margin = 0.2, decay = 0.9;
 
@@ -37,8 +39,7 @@ struct CycleStep {
         }
         limit = limit_now;
         steps = count;
-        step = wanted;
-        return wanted;
+        return step = held.next(wanted, rule == StepRule::fixed ? limit_now : wanted);
     }
 };
 

@@ -18,6 +18,13 @@ void keep_blas_to_one_thread() {
     if (void* set = dlsym(RTLD_DEFAULT, "bli_thread_set_num_threads")) reinterpret_cast<void (*)(long)>(set)(1);
 }
 
+// CHOLMOD's loops over supernodes ask OpenMP for four threads whatever it has been told, and these spin beside those of
+// the tasks. The limit belongs to the calling thread: to be set before each factorisation.
+void keep_openmp_to_one_thread() {
+    static void* const set = dlsym(RTLD_DEFAULT, "omp_set_max_active_levels");
+    if (set != nullptr) reinterpret_cast<void (*)(int)>(set)(0);
+}
+
 }  // namespace
 
 struct Cholesky::Implementation {
@@ -89,6 +96,7 @@ std::span<const double> Cholesky::values() const {
 bool Cholesky::factorise() {
     Implementation& self = *implementation_;
     self.analyse();
+    keep_openmp_to_one_thread();
     cholmod_factorize(self.matrix, self.factor, &self.common);
     if (self.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (self.common.status != CHOLMOD_OK) return false;

@@ -8,14 +8,21 @@
 //  - when Δt has left 0.7 … 1.4 of the one it was made for (stiff modes converge with the rate |1 - (Δt/Δt_made)²|);
 //  - within a step, when the iterations that are still to come at the present rate would cost more than a new one;
 //  - before a step, when the iterations spent because it is old add up to the cost of a new one.
-// It is made at the last accepted state, within a step at the present iterate. If all fails, the step is tried once
-// more from unchanged displacements: at long steps the predictor "same acceleration" can lie beyond what the material
-// stands. Costs are counted in linear solves, never measured, so that runs repeat bit by bit.
+// It is made at the last accepted state, within a step at the present iterate. If that fails, the step is tried once
+// more with a new one wherever the residual falls slowly, and then from unchanged displacements: at long steps the
+// predictor "same acceleration" can lie beyond what the material stands. Costs are counted in linear solves, never
+// measured, so that runs repeat bit by bit.
 //
-// Converged: |r| <= residual_tolerance × max(|F_ext|, |F_int|, |M a|), and the displacement error that is left,
-// estimated from the rate of convergence θ as θ/(1-θ) |δu| (Hairer & Wanner, Solving ODE II, IV.8), is below
-// increment_tolerance × |u_n+1 - u_n|. Or |r| is no larger than rounding makes it. At least one correction is made in
-// the first case.
+// Newton starts from the accelerations of the step before. Those of modes much faster than the step are what is left of
+// a load's sudden beginning and change their sign every step: where the start leaves many times the force that there
+// was in the body and is put on it, unchanged displacements are tried, and the smaller residual is taken.
+//
+// The rate of convergence θ is that of the corrections, |δu_k|/|δu_k-1| (Hairer & Wanner, Solving ODE II, IV.8): the
+// residual of the first correction is mostly what bending has stretched, large in force and next to nothing in
+// displacement, and the second correction takes it away. Converged: |r| <= residual_tolerance × max(|F_ext|, |F_int|,
+// |M a|), and the displacement error that is left, θ/(1-θ) |δu|, is below increment_tolerance × |u_n+1 - u_n|. Or |r|
+// is no larger than rounding makes it. At least one correction is made in the first case; after one, the residuals
+// stand for the corrections.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,7 +35,10 @@ namespace {
 constexpr double smallest_step_ratio = 0.7, largest_step_ratio = 1.4;
 constexpr int factorisation_cost = 10;     // linear solves with their residuals; measured 8 to 15 on plane meshes
 constexpr double newton_tolerance = 1e-5;  // of conjugate gradients: Newton corrects what is left
-constexpr int steps_when_new = 4;          // the most iterations of so many steps are what a new factorisation needs
+// The most iterations of so many steps of about the size that it was made for are what a new factorisation needs.
+constexpr int steps_when_new = 4;
+constexpr double steady = 0.05;
+constexpr double far_out = 10;
 }  // namespace
 
 template <int D>
@@ -59,16 +69,47 @@ void Solver<D>::Implementation::update_velocities(double dt) {
 }
 
 template <int D>
-NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, BlockLoop loop) {
+void Solver<D>::Implementation::guess(Guess guess, double dt) {
     const double to_displacement = newmark.beta * dt * dt;
     for (const std::size_t f : assembly.freedoms()) {
-        a[f] = attempt == Attempt::from_rest ? (old_u[f] - predicted_u[f]) / to_displacement : old_a[f];
+        a[f] = guess == Guess::same_accelerations ? old_a[f] : (old_u[f] - predicted_u[f]) / to_displacement;
         u[f] = predicted_u[f] + to_displacement * a[f];
     }
     if (is_damped()) update_velocities(dt);
     motions.place(time, u, v, a);
-    bodies.begin_step(time, dt, newmark, attempt == Attempt::from_rest);
+    bodies.begin_step(time, dt, newmark, guess == Guess::same_displacements);
     bodies.place(u, v, a);
+}
+
+template <int D>
+double Solver<D>::Implementation::norm_of_forces() const {
+    double loads2 = 0, internal2 = contact_size2;
+    for (std::size_t f = 0; f < u.size(); ++f) {
+        loads2 += external[f] * external[f];
+        internal2 += previous_internal[f] * previous_internal[f];
+    }
+    return std::sqrt(std::max(loads2, internal2));
+}
+
+template <int D>
+double Solver<D>::Implementation::first_iterate(double dt, Attempt attempt, BlockLoop loop) {
+    const auto start = [&](Guess from) {
+        guess(from, dt);
+        return evaluate_forces(loop);
+    };
+    if (attempt == Attempt::from_rest) return start(Guess::same_displacements);
+    const double smallest_J = start(Guess::same_accelerations);
+    if (attempt == Attempt::renewing) return smallest_J;
+    const double norm = std::sqrt(dynamic_residual(loop).residual);
+    if (norm <= far_out * norm_of_forces()) return smallest_J;
+    const double smallest_J_at_rest = start(Guess::same_displacements);
+    if (!(norm <= std::sqrt(dynamic_residual(loop).residual))) return smallest_J_at_rest;
+    return start(Guess::same_accelerations);
+}
+
+template <int D>
+NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, BlockLoop loop) {
+    const double to_displacement = newmark.beta * dt * dt;
     NewtonResult result;
     using Outcome = NewtonResult::Outcome;
     bool factor_is_new = false;
@@ -77,9 +118,10 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
         if (!factorise_dynamic(dt, loop)) return result.outcome = Outcome::not_positive_definite, result;
         factor_is_new = true;
     }
-    double previous_norm = 0, last_increment = 0;
+    double smallest_J = first_iterate(dt, attempt, loop);
+    double previous_norm = 0, increment = 0, previous_increment = 0;
     for (;; ++result.iterations) {
-        const double smallest_J = evaluate_forces(loop);
+        if (result.iterations > 0) smallest_J = evaluate_forces(loop);
         const Magnitudes of = dynamic_residual(loop);
         const double norm = std::sqrt(of.residual);
         result.last_residual = norm;
@@ -92,13 +134,13 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
         const double rounding = rounding_floor();
         if (norm <= rounding) return result;
         if (result.iterations > 0) {
-            const double rate = norm / previous_norm;
-            const double error =
-                rate < 1 ? rate / (1 - rate) * last_increment : std::numeric_limits<double>::infinity();
+            const double rate = result.iterations > 1 ? increment / previous_increment : norm / previous_norm;
+            const double error = rate < 1 ? rate / (1 - rate) * increment : std::numeric_limits<double>::infinity();
             if (norm <= target && error <= options.increment_tolerance * std::sqrt(of.step)) return result;
             const double to_come = rate < 1 ? std::log(std::max(target, rounding) / norm) / std::log(rate)
                                             : std::numeric_limits<double>::infinity();
-            if (to_come > factorisation_cost && !(factor_is_new && rate < 0.1)) {
+            const bool is_known = result.iterations > 1 || attempt >= Attempt::renewing;
+            if (is_known && to_come > factorisation_cost && !(factor_is_new && rate < 0.1)) {
                 linearise_here();
                 if (!factorise_dynamic(dt, loop)) return result.outcome = Outcome::not_positive_definite, result;
                 factor_is_new = true;
@@ -110,7 +152,8 @@ NewtonResult Solver<D>::Implementation::solve_step(double dt, Attempt attempt, B
         if (!solve_system(newton_tolerance, loop)) return result.outcome = Outcome::not_positive_definite, result;
         correct_accelerations(to_displacement, dt);
         previous_norm = norm;
-        last_increment = to_displacement * this->norm(correction);
+        previous_increment = increment;
+        increment = to_displacement * this->norm(correction);
     }
 }
 
@@ -122,7 +165,7 @@ NewtonResult Solver<D>::Implementation::step_implicitly(double dt, BlockLoop loo
     const bool reusable =
         step_ratio >= smallest_step_ratio && step_ratio <= largest_step_ratio && factor.excess < factorisation_cost;
     NewtonResult result;
-    for (const Attempt attempt : {Attempt::reusing, Attempt::factorising, Attempt::from_rest}) {
+    for (const Attempt attempt : {Attempt::reusing, Attempt::factorising, Attempt::renewing, Attempt::from_rest}) {
         if (attempt == Attempt::reusing && !reusable) continue;
         result = solve_step(dt, attempt, loop);
         statistics.newton_iterations += result.iterations;
@@ -130,10 +173,12 @@ NewtonResult Solver<D>::Implementation::step_implicitly(double dt, BlockLoop loo
     }
     if (!result.converged()) return result;
     const int iterations = result.iterations - result.iterations_before_factor;
-    if (factor.steps++ < steps_when_new)
+    if (factor.steps < steps_when_new && std::fabs(dt - factor.time_step) < steady * dt) {
+        ++factor.steps;
         factor.iterations_when_new = std::max(factor.iterations_when_new, iterations);
-    else
+    } else {
         factor.excess += std::max(0, iterations - factor.iterations_when_new);
+    }
     update_velocities(dt);
     return result;
 }

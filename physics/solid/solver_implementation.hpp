@@ -36,14 +36,15 @@ struct NewtonResult {
 struct FactorPolicy {
     bool valid = false;
     double time_step = 0;         // Δt that it was made for
-    int steps = 0;                // solved with it
-    int iterations_when_new = 0;  // the most in the first of those
-    int excess = 0;               // iterations beyond those, in all later steps
+    int steps = 0;                // of about this size solved with it, the first few
+    int iterations_when_new = 0;  // the most in those
+    int excess = 0;               // iterations beyond those, in all other steps
 };
 
 // What has been done to the body and what was lost, since the start or the last static solve [J].
 struct Account {
     double external_work = 0;  // loads without gravity, and whoever moves what is prescribed
+    double load_work = 0;      // of the loads given to advance() alone
     double numerical = 0;      // work of all forces that did not become kinetic energy
     double damping = 0;        // work against Rayleigh's damping
     // At the start of the step under way:
@@ -52,8 +53,9 @@ struct Account {
     std::vector<double> body_reactions;  // of the prescribed coordinates of rigid bodies
 };
 
-// A step is tried with the factorisation there is, then with a new one, then also from unchanged displacements.
-enum class Attempt { reusing, factorising, from_rest };
+// A step is tried with the factorisation there is, then with a new one, then with new ones wherever the residual falls
+// slowly, then also from unchanged displacements.
+enum class Attempt { reusing, factorising, renewing, from_rest };
 
 // Squares of Euclidean norms over the unknowns, and, of forces, over the freedoms that are moved.
 struct Magnitudes {
@@ -111,6 +113,11 @@ struct Solver<D>::Implementation {
     // implicit_step.cpp
     NewtonResult step_implicitly(double dt, BlockLoop loop);
     NewtonResult solve_step(double dt, Attempt attempt, BlockLoop loop);
+    // Where Newton starts: with the accelerations of the step before, or with its displacements.
+    enum class Guess { same_accelerations, same_displacements };
+    void guess(Guess guess, double dt);
+    double first_iterate(double dt, Attempt attempt, BlockLoop loop);  // the better guess; its smallest det F
+    double norm_of_forces() const;                      // of those that the step begins with, and of its loads [N]
     bool factorise_dynamic(double dt, BlockLoop loop);  // false: not positive definite
     void correct_accelerations(double to_displacement, double dt);
     void update_velocities(double dt);  // from the accelerations
@@ -127,8 +134,9 @@ struct Solver<D>::Implementation {
     void close_account(BlockLoop loop);  // at its end
     double kinetic_energy(BlockLoop loop);
 
-    void take_loads(std::span<const double> given);  // throws std::invalid_argument
-    void restore_factor(const State& state);         // solver_state.cpp
+    void take_loads(
+        std::span<const double> given);       // those there were become the previous ones; throws std::invalid_argument
+    void restore_factor(const State& state);  // solver_state.cpp
     double norm(std::span<const double> unknowns) const;
     double rounding_floor() const;  // what rounding alone leaves of the residual [N]
     void update_positions();
@@ -150,7 +158,7 @@ struct Solver<D>::Implementation {
     double load_factor = 1;  // of the loads on surfaces: less than 1 on the way of a static solve
     // D × nodes
     std::vector<double> u, v, a, positions;
-    std::vector<double> loads;                        // given for the end of the step
+    std::vector<double> loads, previous_loads;        // given for the end of the step, and of the one before
     std::vector<double> internal, inertia;            // F_int(u), M a
     std::vector<double> external, previous_external;  // loads and gravity, at the end and at the start of a step
     std::vector<double> previous_internal;

@@ -152,13 +152,13 @@ TEST_CASE("what the solid's ledger calls dissipated is the damping of the time i
 }
 
 TEST_CASE("p is regulated between 1 and its bound, and says so") {
-    const std::string text = with(with_keys("ratio_control = true\n"), "ratio = 1\n", "ratio = 4\n");
+    const std::string text = with(with_keys("ratio_control = true\n"), "ratio = 1\n", "ratio = 3\n");
     const Finished run(with(text, "history_interval = 0.001\n", ""));
     REQUIRE(run.code == engine::success);
     const auto history = run.results.history();
     const auto p = history.column("coupling_ratio");
     CHECK(p.front() == 1);
-    CHECK(*std::max_element(p.begin(), p.end()) == 4);
+    CHECK(*std::max_element(p.begin(), p.end()) == 3);
     CHECK(*std::min_element(p.begin(), p.end()) == 1);
     // The column holds p of the next cycle: steps add up.
     const nlohmann::json summary = run.results.summary();
