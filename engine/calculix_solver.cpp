@@ -137,7 +137,8 @@ void CalculixSolver<D>::solve_static(std::span<const double> external_forces, Bl
     std::fill(state_.velocities.begin(), state_.velocities.end(), 0.0);
     state_.external_forces.assign(external_forces.begin(), external_forces.end());
     state_.accelerations_known = false;
-    state_.external_work = state_.numerical_dissipation = 0;
+    state_.loads = state_.external_forces;
+    state_.external_work = state_.load_work = state_.numerical_dissipation = 0;
     same_.restore(state_);
 }
 
@@ -162,6 +163,7 @@ void CalculixSolver<D>::advance(double dt, std::span<const double> external_forc
         work += 0.5 * ((first ? external_forces[f] : state_.external_forces[f]) + external_forces[f]) *
                 (state_.displacements[f] - from[f]);
     state_.external_work += work;
+    state_.load_work += work;
     state_.external_forces.assign(external_forces.begin(), external_forces.end());
     state_.accelerations_known = true;
     state_.time += dt;

@@ -25,6 +25,7 @@ class CalculixSolver final : public solid::Structure<D> {
 
     void solve_static(std::span<const double> external_forces, BlockLoop loop) override;
     void advance(double dt, std::span<const double> external_forces, BlockLoop loop) override;
+    double work_of_loads() const override { return state_.load_work; }
     double largest_stable_step() const override { return same_.largest_stable_step(); }
     void set_time(double time) override;
 

@@ -92,8 +92,8 @@ HistoryPart interface_energies(const coupling::Interface& interface) {
     return part;
 }
 
-// Water and body together, without what both have dissipated: the rigid walls' work and E_Interface are all that can
-// change it, and the residual is what this misses.
+// Water and body together, without what both have dissipated: the rigid walls' work, that of what else drives the body
+// and E_Interface are all that can change it, and the residual is what this misses.
 HistoryPart total_balance(const Model<2>& model) {
     auto initial = std::make_shared<std::vector<double>>();  // of the first row
     return {{{"total_energy_change", "J/m"}, {"total_energy_residual", "J/m"}},
@@ -107,9 +107,10 @@ HistoryPart total_balance(const Model<2>& model) {
                 const coupling::InterfaceEnergy& interface = model.interface->energy;
                 const double dissipated = ledger.sum.dissipation + ledger.sum.viscous + ledger.sum.defect +
                                           body.external_work - (body.stored() - interface.solid_at_start),
-                             rigid = ledger.sum.walls - interface.to_fluid;
-                row.insert(row.end(), {now - initial->front(),
-                                       now - initial->front() + dissipated - rigid - interface.of_interface()});
+                             rigid = ledger.sum.walls - interface.to_fluid,
+                             driving = body.external_work - body.load_work;
+                row.insert(row.end(), {now - initial->front(), now - initial->front() + dissipated - rigid - driving -
+                                                                   interface.of_interface()});
             },
             initial};
 }

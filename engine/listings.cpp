@@ -166,11 +166,11 @@ class Listing {
         add(tasks::newton_solve(solver_of(model_), *model_.interface, model_.clock, loads_read));
     }
 
-    void exchange(tasks::LoadsOf loads_read) requires(D == 2) {
+    void exchange() requires(D == 2) {
         coupling::Interface& interface = *model_.interface;
         group("exchange");
         if (interface.keeps_energy)
-            add(tasks::interface_energy(solver_of(model_), interface, body_work(model_)->ledger.sum.walls, loads_read));
+            add(tasks::interface_energy(solver_of(model_), interface, body_work(model_)->ledger.sum.walls));
         add(tasks::exchange(solver_of(model_), interface, model_.clock));
         if (interface.ratio.regulated) add(tasks::regulate_ratio(interface));
     }
@@ -232,7 +232,7 @@ CycleListing coupling_cycle(Model<D>& model, const io::CouplingScene& coupling, 
                 coupling.algorithm == Algorithm::cps ? tasks::LoadsOf::last_exchange : tasks::LoadsOf::this_cycle;
             steps.solve(loads);
             if (iterated) steps.add(tasks::relaxation(steps.iterated_parts(), model.cycle_start));
-            (iterated ? end : steps).exchange(loads);
+            (iterated ? end : steps).exchange();
         }
     return {begin.take(), steps.take(), end.take(), iterated};
 }

@@ -95,6 +95,17 @@ HistoryPart contacts(const io::Scene& scene, const solid::Solver<D>& solid) {
     return part;
 }
 
+// Something else than the water's loads can do work on the body.
+template <int D>
+bool is_driven(const solid::Options<D>& options) {
+    const auto turns_with_time = [](const auto& laws) {
+        return std::any_of(laws.begin(), laws.end(), [](const TimeFunction& law) { return !law.changes.empty(); });
+    };
+    return !options.motions.empty() || !options.pressures.empty() || !options.rigid_bodies.empty() ||
+           std::any_of(options.contacts.begin(), options.contacts.end(),
+                       [&](const auto& contact) { return turns_with_time(contact.ground.displacement); });
+}
+
 }  // namespace
 
 template <int D>
@@ -105,14 +116,20 @@ std::vector<HistoryPart> solid_columns(const io::Scene& scene, const solid::Solv
     return parts;
 }
 
-// Of a body alone everything that balances: kinetic + strain + gravity's + contact + friction + damping + numerical
-// energy - external work keeps its initial value, and the residual is what this misses. Across an interface gravity's
-// energy, and all that was dissipated: work of the loads minus what the body has gained.
+// Kinetic + strain + gravity's + contact + friction + damping + numerical energy - external work keeps its initial
+// value; the residual is what this misses. Across an interface also what was dissipated in all, work of the loads minus
+// what the body has gained, and the part of the external work that is not the water's.
 template <int D>
 HistoryPart solid_energies(const Model<D>& model, const coupling::Interface* interface) {
     const std::string unit = per_depth<D>("J");
     const solid::Solver<D>& solid = *model.solid;
+    const solid::Options<D>& options = solid.options();
     const bool alone = model.structure.has_value(), moves = !alone || !model.structure->is_static;
+    const bool touches = !options.contacts.empty(),
+               rubs = std::any_of(options.contacts.begin(), options.contacts.end(),
+                                  [](const auto&contact) { return contact.friction > 0; }),
+               damped = moves && (options.mass_damping > 0 || options.stiffness_damping > 0),
+               balances = moves && (alone || interface), driven = interface && is_driven(options);
     HistoryPart part;
     const auto column = [&](bool is_there, const char* name) {
         if (is_there) part.columns.push_back({name, unit});
@@ -120,24 +137,10 @@ HistoryPart solid_energies(const Model<D>& model, const coupling::Interface* int
     column(moves, "solid_kinetic_energy");
     column(true, "solid_strain_energy");
     column(moves, "solid_external_work");
-    if (interface) {
-        column(true, "solid_gravity_energy");
-        column(true, "solid_dissipated_energy");
-        part.append = [&solid, interface](std::vector<double>& row) {
-            const solid::Energies e = solid.energies();
-            const double gained = e.stored() - interface->energy.solid_at_start;
-            row.insert(row.end(),
-                       {e.kinetic, e.strain, e.external_work, e.gravity_potential, e.external_work - gained});
-        };
-        return part;
-    }
-    const solid::Options<D>& options = solid.options();
-    const bool touches = !options.contacts.empty(),
-               rubs = std::any_of(options.contacts.begin(), options.contacts.end(),
-                                  [](const auto&contact) { return contact.friction > 0; }),
-               damped = moves && (options.mass_damping > 0 || options.stiffness_damping > 0), balances = alone && moves;
-    column(alone, "solid_gravity_energy");
+    column(driven, "solid_driving_work");
+    column(alone || interface, "solid_gravity_energy");
     column(touches, "solid_contact_energy");
+    column(interface, "solid_dissipated_energy");
     column(rubs, "solid_friction_energy");
     column(damped, "solid_damping_energy");
     column(balances, "solid_numerical_energy");
@@ -148,8 +151,10 @@ HistoryPart solid_energies(const Model<D>& model, const coupling::Interface* int
         if (moves) row.push_back(e.kinetic);
         row.push_back(e.strain);
         if (moves) row.push_back(e.external_work);
-        if (alone) row.push_back(e.gravity_potential);
+        if (driven) row.push_back(e.external_work - e.load_work);
+        if (alone || interface) row.push_back(e.gravity_potential);
         if (touches) row.push_back(e.contact);
+        if (interface) row.push_back(e.external_work - (e.stored() - interface->energy.solid_at_start));
         if (rubs) row.push_back(e.friction);
         if (damped) row.push_back(e.damping);
         if (!balances) return;

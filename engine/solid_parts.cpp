@@ -129,9 +129,7 @@ void start_solid(Model<2>& model, const io::Scene& scene) {
     interface.solid_loads = interface.fluid_loads;
     interface.ratio.begin(interface.force);
     if (interface.keeps_energy) {
-        const solid::Energies energies = solver.energies();
-        interface.energy.begin(solver.displacements());
-        interface.energy.solid_at_start = energies.stored();
+        interface.energy.solid_at_start = solver.energies().stored();
     }
 }
 

@@ -105,8 +105,9 @@ constexpr auto keys = std::to_array<SceneKey>({
      "each coupling cycle; another solver can be given them (export-ccx --loads)"},
     {"output", "energy_ledger", K::boolean, false, "", any, "", "false",
      "columns of the fluid's compression, dissipated and viscous energy, of the walls' work and of what is missing in "
-     "the balance, with a solid also of what crosses the interface and of its own ledger; costs about a flux pass per "
-     "stage"},
+     "the balance, with a solid also of what crosses the interface, of its own ledger and of what else drives it; "
+     "costs "
+     "about a flux pass per stage"},
 
     {"integral", "name", K::text, true, "", any, "", "", "of the column"},
     {"integral", "value", K::formula, true, "", any, "", "", "summed with each particle's volume"},

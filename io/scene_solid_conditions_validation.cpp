@@ -20,7 +20,6 @@ class ConditionsValidation {
         : scene_(scene), solid_(*scene.solid), complaints_(complaints) {}
 
     void everything() {
-        ledger();
         each("solid.motion", solid_.motions, [this](const NodeMotionScene& motion, const std::string& at) {
             validate_set(scene_, at + ".set", motion.set, "node set", complaints_);
             direction(at, motion.along);
@@ -42,18 +41,6 @@ class ConditionsValidation {
     template <class Entry, class Check>
     void each(const std::string& section, const std::vector<Entry>& entries, const Check& check) {
         for (std::size_t i = 0; i < entries.size(); ++i) check(entries[i], fmt::format("{}[{}]", section, i));
-    }
-
-    // The balance of water and body together knows the work of the water and of rigid walls.
-    void ledger() {
-        const bool other_work = !solid_.motions.empty() || !solid_.rigid_motions.empty() ||
-                                !solid_.rigid_loads.empty() || !solid_.pressures.empty() ||
-                                !solid_.ground_motions.empty();
-        if (scene_.fluid && scene_.output.energy_ledger && other_work)
-            complaints_.add(
-                "output.energy_ledger",
-                "the balance of water and body has no column for the work of what moves or presses the body",
-                "energy_ledger = false, or take the motions, pressures and loads of the body out");
     }
 
     void direction(const std::string& at, int along) {

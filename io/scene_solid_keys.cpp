@@ -106,12 +106,13 @@ std::vector<SceneKey> material_keys(std::string_view section) {
 constexpr auto condition_keys = std::to_array<SceneKey>({
     {"solid.scheme", "name", K::choice, false, "", any, "hht newmark central_difference static", "hht",
      "Hilber–Hughes–Taylor, or Newmark with the same β and γ; central differences, explicit; static: an equilibrium at "
-     "the end of every step. The last two without water"},
+     "the end of every step, without water"},
     {"solid.scheme", "alpha", K::number, false, "", open_below(-1.0 / 3, 0), "", "-0.3",
      "αs, numerical damping of high frequencies: 0 none"},
     {"solid.scheme", "step", K::number, false, "s", positive, "",
      "static: the end time; central differences: 0.9 of the critical step",
-     "largest time step, needed for a motion without water; with water the coupling cycle is the step"},
+     "largest time step, needed for a motion without water; with water the coupling cycle is the step, central "
+     "differences making as many in it as are stable"},
 
     {"solid.clamp", "name", K::text, false, "", any, "", "none",
      "of columns NAME_force_x[N] … of history.csv: the force that holds the nodes there"},

@@ -146,10 +146,6 @@ class SolidValidation {
         if (is_explicit && given("solid.scheme.alpha"))
             complaints_.add("solid.scheme.alpha", "central differences have no αs", "take it out");
         if (scene_.fluid) {
-            if (is_explicit)
-                complaints_.add("solid.scheme.name",
-                                "with water the step is the coupling cycle, which heeds no critical step of the body",
-                                "choose hht or newmark");
             if (solid_.is_static)
                 complaints_.add("solid.scheme.name", "a body in water moves: static is for a body alone",
                                 "choose hht or newmark");

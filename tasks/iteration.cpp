@@ -19,6 +19,7 @@ Task begin_iterations(const IteratedParts& parts, CycleStart& start) {
                     start.last_works[k] = parts.works[k].ledger.last;
                 }
                 parts.solid.save(start.solid);
+                start.borne_loads = parts.interface.borne_loads;
                 coupling::WetSurface& surface = parts.interface.surface;
                 surface.state(start.y, parts.clock.cycle);
                 surface.extrapolated(start.guess, parts.clock.cycle);
@@ -39,6 +40,7 @@ Task back_to_start(const IteratedParts& parts, CycleStart& start) {
                     parts.works[k].ledger.last = start.last_works[k];
                 }
                 parts.solid.restore(start.solid);
+                parts.interface.borne_loads = start.borne_loads;
                 if (parts.moving) parts.moving->place(parts.walls.panels, parts.clock.time);
                 parts.interface.surface.place(parts.walls.panels, parts.clock.elapsed);
                 if (!renewed) return;

@@ -17,6 +17,7 @@ struct CycleStart {
     std::vector<fluid::EnergyRates> works;  // of single walls: sums …
     std::vector<fluid::EnergyRates> last_works;
     solid::State solid;
+    std::vector<double> borne_loads;
     std::vector<double> y, guess;  // scratch
 };
 

@@ -1,20 +1,21 @@
 #include "tasks/solid_step.hpp"
 
 #include "physics/fluid/gradients.hpp"
+#include "physics/solid/stable_steps.hpp"
 #include "tasks/parallel_loop.hpp"
 #include "tasks/resources.hpp"
 #include "tasks/statistics.hpp"
 
 namespace aquagraph::tasks {
 
-Task newton_solve(solid::Structure<2>& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads) {
+Task newton_solve(solid::Structure<2>& solid, coupling::Interface& interface, const Clock& clock, LoadsOf loads) {
     const bool parallel = loads == LoadsOf::last_exchange;
     const std::vector<double>& nodal = parallel ? interface.solid_loads : interface.fluid_loads;
     return {.name = "FE Newton solve",
             .reads = {resource::clock_cycle, parallel ? resource::solid_loads : resource::interface_loads},
             .writes = {resource::solid_state},
-            .body = [&solid, &nodal, &clock] {
-                solid.advance(clock.cycle, nodal, parallel_loop);
+            .body = [&solid, &interface, &nodal, &clock] {
+                advance_stably(solid, clock.cycle, nodal, interface.borne_loads, interface.between, parallel_loop);
                 report_work(solid.mesh().elements.size());
             }};
 }
@@ -88,18 +89,14 @@ Task averaged_loads(const fluid::Fluid<2>& fluid, const fluid::Panels<2>& panels
             }};
 }
 
-Task interface_energy(const solid::Structure<2>& solid, coupling::Interface& interface, const double& work_on_fluid,
-                      LoadsOf loads) {
-    const bool parallel = loads == LoadsOf::last_exchange;
-    const std::vector<double>& nodal = parallel ? interface.solid_loads : interface.fluid_loads;
+Task interface_energy(const solid::Structure<2>& solid, coupling::Interface& interface, const double& work_on_fluid) {
     return {.name = "interface energy",
-            .reads = {resource::solid_state, resource::fluid_ledger,
-                      parallel ? resource::solid_loads : resource::interface_loads},
+            .reads = {resource::solid_state, resource::fluid_ledger},
             .writes = {resource::interface_energy},
-            .body = [&solid, &interface, &work_on_fluid, &nodal] {
+            .body = [&solid, &interface, &work_on_fluid] {
                 coupling::InterfaceEnergy& energy = interface.energy;
                 const double gained = work_on_fluid - energy.to_fluid;
-                const double given = energy.book(nodal, solid.displacements());
+                const double given = energy.book(solid.work_of_loads());
                 energy.to_fluid = work_on_fluid;
                 if (interface.method == coupling::LoadMethod::energy_conservative)
                     interface.correction.update(gained, given, energy.of_interface());

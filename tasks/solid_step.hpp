@@ -14,8 +14,8 @@ namespace aquagraph::tasks {
 // nothing that the fluid does in this cycle and runs beside it; with `this_cycle` (CSS) it waits for the fluid's loads.
 enum class LoadsOf { last_exchange, this_cycle };
 
-// Advances the solid over the cycle: one step of clock.cycle.
-Task newton_solve(solid::Structure<2>& solid, const coupling::Interface& interface, const Clock& clock, LoadsOf loads);
+// Advances the solid over the cycle, clock.cycle: one step, or as many as an explicit scheme needs.
+Task newton_solve(solid::Structure<2>& solid, coupling::Interface& interface, const Clock& clock, LoadsOf loads);
 
 // Gradients of the particles that the load reads, at the end of the fluid's steps.
 Task interface_gradients(fluid::Fluid<2>& fluid, const coupling::Interface& interface);
@@ -27,9 +27,8 @@ Task interface_loads(fluid::Fluid<2>& fluid, const fluid::NormalFluxWalls<2>& wa
 // Or from averaged pressures.
 Task averaged_loads(const fluid::Fluid<2>& fluid, const fluid::Panels<2>& panels, coupling::Interface& interface);
 // Books what the cycle has moved across the interface, after the solve and before the exchange: work_on_fluid is what
-// the body has given to the fluid since the start [J/m], `loads` which ones the solve has read. Corrects ε.
-Task interface_energy(const solid::Structure<2>& solid, coupling::Interface& interface, const double& work_on_fluid,
-                      LoadsOf loads);
+// the body has given to the fluid since the start [J/m]. Corrects ε.
+Task interface_energy(const solid::Structure<2>& solid, coupling::Interface& interface, const double& work_on_fluid);
 // Hands loads to the solid and wet nodes to the fluid, and starts a new cycle.
 Task exchange(const solid::Structure<2>& solid, coupling::Interface& interface, Clock& clock);
 // Chooses p of the next cycle.

@@ -28,13 +28,16 @@ struct Interface {
     std::vector<Vec2> vertex_forces;  // of the last load, on the vertices of all panels [N/m]
     std::vector<double> fluid_loads;  // nodal, at the fluid's present time: what the fluid has computed
     std::vector<double> solid_loads;  // nodal, at the last exchange: what a CPS solve reads
+    std::vector<double> borne_loads;  // nodal, at the end of the last solve; empty before the first
+    std::vector<double> between;      // scratch of a solve
     std::array<double, 2> force{};    // total of fluid_loads [N/m]
 
     // For a checkpoint: what later cycles read of earlier ones. A new piece of history goes in here. The load's pairs
     // are collected again with the lists.
     template <class Archive>
     void archive(Archive& fields) {
-        fields(surface, vertex_forces, fluid_loads, solid_loads, force, correction, energy, ratio, fixed_point);
+        fields(surface, vertex_forces, fluid_loads, solid_loads, borne_loads, force, correction, energy, ratio,
+               fixed_point);
     }
 
     // After the neighbour lists have been built.

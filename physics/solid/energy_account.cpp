@@ -42,16 +42,17 @@ void Solver<D>::Implementation::open_account(BlockLoop loop) {
 template <int D>
 void Solver<D>::Implementation::close_account(BlockLoop loop) {
     const std::vector<double>& gravity = assembly.gravity_forces();
-    double load_work = 0, total_work = 0;
+    double given_work = 0, external_work = 0, total_work = 0;
     for (std::size_t f = 0; f < u.size(); ++f) {
         const double half_step = 0.5 * (u[f] - old_u[f]), force = external[f] + previous_external[f];
-        load_work += (force - 2 * gravity[f]) * half_step;
+        given_work += (loads[f] + previous_loads[f]) * half_step;
+        external_work += (force - 2 * gravity[f]) * half_step;
         total_work += (force - internal[f] - previous_internal[f]) * half_step;
     }
     for (std::size_t k = 0; k < motions.freedoms().size(); ++k) {
         const std::size_t f = motions.freedoms()[k];
         const double work = 0.5 * (account.reactions[k] + inertia[f] - (external[f] - internal[f])) * (u[f] - old_u[f]);
-        load_work += work;
+        external_work += work;
         total_work += work;
     }
     for (std::size_t f = 0; f < damping.size(); ++f)
@@ -72,10 +73,11 @@ void Solver<D>::Implementation::close_account(BlockLoop loop) {
             const double reaction = body_inertia[k] - (body_external[k] - body_internal[k]);
             work += 0.5 * (account.body_reactions[n] + reaction) * step_of(k);
         }
-        load_work += work;
+        external_work += work;
         total_work += work + gravity_work;
     }
-    account.external_work += load_work;
+    account.load_work += given_work;
+    account.external_work += external_work;
     account.numerical += total_work - (kinetic_energy(loop) - account.kinetic);
 }
 

@@ -74,8 +74,9 @@ Solver<D>::Implementation::Implementation(Mesh<D> given_mesh, const Options<D>& 
       border(assembly.equations(), bodies.unknowns().size()),
       lumped_border(0, bodies.unknowns().size()) {
     require(assembly.equations() > 0, "the clamps leave nothing free");
-    for (auto* field : {&u, &v, &a, &positions, &loads, &internal, &inertia, &external, &previous_external,
-                        &previous_internal, &old_u, &old_v, &old_a, &predicted_u, &static_start, &momentum})
+    for (auto* field :
+         {&u, &v, &a, &positions, &loads, &previous_loads, &internal, &inertia, &external, &previous_external,
+          &previous_internal, &old_u, &old_v, &old_a, &predicted_u, &static_start, &momentum})
         field->assign(D * mesh.nodes.size(), 0.0);
     for (auto* field : {&body_external, &body_internal, &body_inertia, &body_previous_external, &body_previous_internal,
                         &body_loads, &body_previous_loads})
@@ -96,6 +97,7 @@ void Solver<D>::Implementation::take_loads(std::span<const double> given) {
     if (given.size() != loads.size())
         throw std::invalid_argument("solid: " + std::to_string(given.size()) + " load components were given, " +
                                     std::to_string(loads.size()) + " are needed (" + std::to_string(D) + " per node)");
+    std::swap(previous_loads, loads);
     std::copy(given.begin(), given.end(), loads.begin());
 }
 
@@ -270,6 +272,7 @@ Energies Solver<D>::energies() const {
     energies.gravity_potential += self.bodies.gravity_potential(self.bodies.motions(), self.options.gravity);
     energies.strain = self.assembly.energy(self.u);
     energies.external_work = self.account.external_work;
+    energies.load_work = self.account.load_work;
     energies.numerical = self.account.numerical;
     energies.damping = self.account.damping;
     for (const GroundContact<D>& contact : self.contacts) {
@@ -278,6 +281,11 @@ Energies Solver<D>::energies() const {
         energies.external_work += contact.ground_work();
     }
     return energies;
+}
+
+template <int D>
+double Solver<D>::work_of_loads() const {
+    return implementation_->account.load_work;
 }
 
 template <int D>

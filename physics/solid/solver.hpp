@@ -93,6 +93,7 @@ class Solver final : public Structure<D> {
     // one per node.
     void contact_pressure(std::span<double> nodal) const;
 
+    double work_of_loads() const override;
     Energies energies() const override;  // computed when asked for
     Statistics statistics() const override;
     double mass() const;  // [kg]

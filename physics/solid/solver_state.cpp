@@ -62,6 +62,7 @@ void Solver<D>::save(State& state) const {
     state.accelerations = self.a;
     state.external_forces = self.external;
     state.internal_forces = self.internal;
+    state.loads = self.loads;
     write<D>(self.bodies.motions(), state.rigid_bodies);
     state.contacts.clear();
     for (const GroundContact<D>& contact : self.contacts) {
@@ -70,9 +71,11 @@ void Solver<D>::save(State& state) const {
     }
     state.accelerations_known = self.accelerations_known;
     state.external_work = self.account.external_work;
+    state.load_work = self.account.load_work;
     state.numerical_dissipation = self.account.numerical;
     state.damping_forces = self.damping;
     state.damping_dissipation = self.account.damping;
+    state.stable_step = self.stable_step;
     state.statistics = self.statistics;
     state.factor_valid = self.factor.valid;
     state.by_gradients = self.by_gradients;
@@ -80,10 +83,14 @@ void Solver<D>::save(State& state) const {
     state.factor_steps = self.factor.steps;
     state.factor_iterations_when_new = self.factor.iterations_when_new;
     state.factor_excess = self.factor.excess;
+    state.factor_displacements.clear();
+    state.factor_rigid_bodies.clear();
+    state.factor_contacts.clear();
+    state.factor_time = 0;
+    if (!self.factor.valid) return;
     state.factor_displacements = self.linearised.u;
     write<D>(self.linearised.bodies, state.factor_rigid_bodies);
     state.factor_time = self.linearised.time;
-    state.factor_contacts.clear();
     for (std::size_t k = 0; k < self.linearised.contacts.size(); ++k) {
         write<D>(self.linearised.contacts[k], state.factor_contacts);
         const auto& shift = self.linearised.ground_shifts[k];
@@ -95,7 +102,7 @@ template <int D>
 void Solver<D>::restore(const State& state) {
     Implementation& self = *implementation_;
     for (const auto* field : {&state.displacements, &state.velocities, &state.accelerations, &state.external_forces,
-                              &state.internal_forces})
+                              &state.internal_forces, &state.loads})
         require(field->size() == self.u.size(), "the saved state has " + std::to_string(field->size()) +
                                                     " components, this mesh has " + std::to_string(self.u.size()));
     require(state.damping_forces.size() == self.damping.size(), "the saved state has another damping");
@@ -120,13 +127,16 @@ void Solver<D>::restore(const State& state) {
     self.a = state.accelerations;
     self.external = state.external_forces;
     self.internal = state.internal_forces;
+    self.loads = state.loads;
     self.multiply_mass(self.a, self.inertia, serial_loop);
     self.gather_body_forces();
     self.accelerations_known = state.accelerations_known;
     self.account.external_work = state.external_work;
+    self.account.load_work = state.load_work;
     self.account.numerical = state.numerical_dissipation;
     self.damping = state.damping_forces;
     self.account.damping = state.damping_dissipation;
+    self.stable_step = state.stable_step;
     self.restore_factor(state);
     self.statistics = state.statistics;
     self.update_positions();

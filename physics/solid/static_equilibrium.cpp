@@ -137,6 +137,7 @@ void Solver<D>::Implementation::solve_static(std::span<const double> given_loads
         load_factor = 1;
         external = start_external;
         internal = start_internal;
+        std::swap(previous_loads, loads);
         std::ostringstream text;
         text << "solid: no static equilibrium beyond " << 100 * reached << " % of the load: " << result.description();
         if (result.outcome == NewtonResult::Outcome::not_positive_definite)

@@ -47,6 +47,7 @@ void Solver<D>::Implementation::find_initial_accelerations(BlockLoop loop) {
     previous_external = external;
     previous_internal = internal;
     previous_damping = damping;
+    previous_loads = loads;
     body_previous_external = body_external;
     body_previous_internal = body_internal;
     body_previous_loads = body_loads;
@@ -110,6 +111,7 @@ void Solver<D>::Implementation::abandon_step() {
     a = old_a;
     bodies.set_motions(old_bodies);
     keep_forces();
+    std::swap(previous_loads, loads);
     if (!accelerations_known) {
         std::fill(a.begin(), a.end(), 0.0);
         bodies.forget_accelerations();

@@ -33,6 +33,7 @@ struct Energies {                  // [J]
     double contact = 0;            // stored in the penalties
     // Since the start or the last solve_static, trapezoidal in time:
     double external_work = 0;  // of the loads without gravity, of what moves nodes as prescribed, of moving ground
+    double load_work = 0;      // the part of it that the loads given to advance() have done
     double friction = 0;       // dissipated
     double damping = 0;        // dissipated by Rayleigh's damping
     double numerical = 0;      // dissipated by the scheme
@@ -59,11 +60,11 @@ struct Statistics {
 struct State {
     double time = 0;                                               // [s]
     std::vector<double> displacements, velocities, accelerations;  // D × nodes
-    std::vector<double> external_forces, internal_forces;          // at the end of the last step
+    std::vector<double> external_forces, internal_forces, loads;   // at the end of the last step; loads: as given
     std::vector<double> damping_forces;                            // empty without damping
     std::vector<double> rigid_bodies;  // of each: coordinates, velocities, accelerations, rotation matrix by rows
     bool accelerations_known = false;
-    double external_work = 0, numerical_dissipation = 0, damping_dissipation = 0;
+    double external_work = 0, load_work = 0, numerical_dissipation = 0, damping_dissipation = 0;
     std::vector<double> contacts;  // of each: shift, tractions, positions (ContactHistory), dissipation, ground's work
     Statistics statistics;
     // The factorisation in use (or the matrix, for conjugate gradients), by where it was made and how it has done
@@ -73,15 +74,16 @@ struct State {
     int factor_steps = 0, factor_iterations_when_new = 0, factor_excess = 0;
     std::vector<double> factor_displacements, factor_rigid_bodies, factor_contacts;
     double factor_time = 0;   // [s], of the loads
+    double stable_step = 0;   // of an explicit scheme, once computed [s]
     std::vector<char> files;  // of a solver that is another program: the file that it continues from
 
     template <class Archive>
     void archive(Archive& fields) {  // for a checkpoint
         fields(time, displacements, velocities, accelerations, external_forces, internal_forces, rigid_bodies, contacts,
                accelerations_known, external_work, numerical_dissipation, statistics);
-        fields(damping_forces, damping_dissipation);
+        fields(damping_forces, damping_dissipation, loads, load_work);
         fields(factor_valid, by_gradients, factor_time_step, factor_steps, factor_iterations_when_new, factor_excess,
-               factor_displacements, factor_rigid_bodies, factor_contacts, factor_time, files);
+               factor_displacements, factor_rigid_bodies, factor_contacts, factor_time, stable_step, files);
     }
 };
 
@@ -104,6 +106,7 @@ class Structure {
     virtual std::span<const double> displacements() const = 0;  // u [m]
     virtual std::span<const double> velocities() const = 0;     // [m/s]
     virtual Energies energies() const = 0;
+    virtual double work_of_loads() const = 0;  // Energies::load_work, without computing the others [J]
     virtual Statistics statistics() const = 0;
 
     // What save() writes, restore() of a body made from the same mesh and options reads; both go on in the same way.

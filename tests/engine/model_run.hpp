@@ -21,12 +21,13 @@ struct Built {
     io::Scene scene;
     std::unique_ptr<engine::Model<2>> model;
     std::vector<tasks::Task> listing;
-    tasks::Executor executor{2};
+    tasks::Executor executor;
 
-    explicit Built(const std::string& text)
+    explicit Built(const std::string& text, int threads = 2)
         : scene(io::read_scene(folder.write("scene.toml", text))),
           model(engine::make_model<2>(scene)),
-          listing(engine::coupling_cycle(*model, scene.coupling)) {}
+          listing(engine::coupling_cycle(*model, scene.coupling)),
+          executor(threads) {}
 
     void start() {
         executor.execute([&] { engine::start(*model, scene); });

@@ -76,6 +76,10 @@ TEST_CASE("the plate has the same bits on 1, 2 and 4 threads") {
     check_same_on_all_threads(plate + "[coupling]\nalgorithm = \"css\"\nratio = 3\n");
 }
 
+TEST_CASE("central differences in water have the same bits on 1, 2 and 4 threads") {
+    check_same_on_all_threads(with(explicit_gate(), "end = 0.02", "end = 0.01"));
+}
+
 TEST_CASE("water alone has the same bits on 1, 2 and 4 threads") {
     check_same_on_all_threads(column);
 }

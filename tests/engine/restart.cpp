@@ -210,6 +210,13 @@ TEST_CASE("a body whose factorisation lasts goes on with the same bits") {
     check_restarts<2>(with(strip, "end = 0.05", "end = 0.01"), 12);
 }
 
+TEST_CASE("central differences in water go on with the same bits, iterated as well") {
+    const std::string text = with(every_cycle(explicit_gate()), "[output]\n", "[output]\nenergy_ledger = true\n");
+    check_restarts<2>(with_coupling(text, "cps", 1), 80);
+    check_restarts<2>(with_coupling(text, "css", 2), 81);
+    check_restarts<2>(with_coupling(text, "iterated", 1), 82);
+}
+
 TEST_CASE("rows and frames at intervals go on without a gap or a repeat") {
     check_restarts<2>(gate, 20, 3);
     check_restarts<2>(column, 21, 3);

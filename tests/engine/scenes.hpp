@@ -231,6 +231,11 @@ poissons_ratio = 0.3
 inline const std::string strip = surrounded_body(12, 1, 12, 1);
 inline const std::string coarse_strip = surrounded_body(12, 1, 6, 1);
 
+// The gate by central differences: some fifteen of their steps make a cycle.
+inline std::string explicit_gate() {
+    return with(gate, "name = \"newmark\"", "name = \"central_difference\"");
+}
+
 inline std::string with_coupling(const std::string& text, const std::string& algorithm, int ratio) {
     return with(text, "algorithm = \"cps\"\nratio = 1\n",
                 "algorithm = \"" + algorithm + "\"\nratio = " + std::to_string(ratio) + "\n");

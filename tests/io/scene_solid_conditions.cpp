@@ -123,18 +123,6 @@ TEST_CASE("slips in motions, pressures and rigid bodies") {
     refused(rim + rim, "the name \"rim\" is already taken", "choose another");
 }
 
-TEST_CASE("the balance of water and body together refuses work that it does not count") {
-    const std::string water =
-        "wet = [\"left\"]\n[fluid]\nspacing = 0.1\nsound_speed = 20.0\n[[fluid.box]]\nmin = [0.0, 0.5]\nmax = [0.5, "
-        "1.0]\n"
-        "[output]\nenergy_ledger = true\n";
-    const std::string text =
-        with(with(sound, "[solid.scheme]\nstep = 0.1\n", "[[solid.pressure]]\nsurface = \"right\"\nvalue = 1.0\n"),
-             "[solid]\n", "[solid]\n" + water);
-    CHECK(refusal(text).find("no column for the work of what moves or presses the body") != std::string::npos);
-    CHECK(refusal(with(text, "energy_ledger = true", "energy_ledger = false")) == "");
-}
-
 TEST_CASE("slips in contacts") {
     const std::string ground = "[[solid.contact]]\nname = \"road\"\nsurface = \"bottom\"\npoint = [0, 0]\n";
     refused(ground, "`normal` of the ground is missing", "a plane has point and normal");
