@@ -190,7 +190,7 @@ TEST_CASE("the loads of a run, given to CalculiX at once, move the body as they 
     for (const char* algorithm : {"cps", "css"}) {
         CAPTURE(algorithm);
         const std::string scene = with(water_on_plate("algorithm = \"" + std::string(algorithm) + "\"\n", "-0.3"),
-                                       "end = 0.004", "end = 0.01") +
+                                       "end = 0.004", "end = 0.0065") +  // whole steps of both algorithms
                                   "interface_loads = true\n";
         const Finished run(scene);
         REQUIRE(run.code == engine::success);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "physics/solid/stable_steps.hpp"
-#include "tests/engine/results_of_run.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;

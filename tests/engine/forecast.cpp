@@ -7,7 +7,7 @@
 #include "engine/forecast.hpp"
 #include "physics/fluid/rebuild.hpp"
 #include "tasks/parallel_loop.hpp"
-#include "tests/engine/results_of_run.hpp"
+#include "tests/engine/model_run.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;
