@@ -32,6 +32,10 @@ void* operator new(std::size_t size) {
     if (void* memory = counted_malloc(size > 0 ? size : 1)) return memory;
     throw std::bad_alloc();
 }
+// std::stable_sort asks for its buffer so. Under a sanitizer it would come from elsewhere than the delete below.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    return counted_malloc(size > 0 ? size : 1);
+}
 void operator delete(void* memory) noexcept {
     std::free(memory);
 }
