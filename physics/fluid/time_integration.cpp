@@ -106,13 +106,18 @@ void TimeIntegration<D>::resize(const Particles<D>& particles) {
 template <int D>
 void update_state(Particles<D>& s, const Tait& tait, LaneRange lanes) {
     // Plain pointers and a Tait of its own: then the loop for water is one of vectors.
-    const double* const deviation = s.deviation.data();
+    double* const deviation = s.deviation.data();
     const double* const mass = s.mass.data();
     const double* const fullness = s.fullness.data();
     double* const pressure = s.p.data();
     double* const impedance = s.impedance.data();
     double* const volume = s.volume.data();
+    // Where water bears no tension nothing would hold its density while it is stretched: spray would thin out without
+    // end, and pull with all it lacks once its support fills up. Cavities open between particles there instead.
+    constexpr double least_density = 0.9;  // over ρ0
     const auto update = [=](const Tait& own, std::size_t i) __attribute__((always_inline)) {
+        const double least = (least_density - 1) * own.reference_density;
+        deviation[i] = fullness[i] < fullness_of_interior ? std::max(deviation[i], least) : deviation[i];
         const double rho = own.reference_density + deviation[i];
         const double p = own.pressure(deviation[i]);
         pressure[i] = fullness[i] < fullness_of_interior ? std::max(p, 0.0) : p;

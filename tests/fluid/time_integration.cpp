@@ -139,3 +139,21 @@ TEST_CASE("water converges with the order of the integration in time") {
         }
     }
 }
+
+TEST_CASE("water with an open support bears no tension and keeps nine tenths of its density") {
+    Particles<2> s = place<2>({{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 0.1);
+    const double deviation[] = {-500, -50, -500, 20}, fullness[] = {0.5, 0.5, 1, 0.5};
+    for (std::size_t i = 0; i < 4; ++i) {
+        s.deviation[i] = deviation[i];
+        s.fullness[i] = fullness[i];
+    }
+    update_state(s, water, LaneRange{0, 4});
+    CHECK(s.deviation[0] == doctest::Approx(-100).epsilon(1e-12));
+    CHECK(s.volume[0] == doctest::Approx(s.mass[0] / 900).epsilon(1e-12));
+    CHECK(s.p[0] == 0);
+    CHECK(s.deviation[1] == -50);
+    CHECK(s.p[1] == 0);
+    CHECK(s.deviation[2] == -500);  // inside it is the state of the water
+    CHECK(s.p[2] == water.pressure(-500));
+    CHECK(s.p[3] == water.pressure(20));
+}
