@@ -26,7 +26,7 @@ class NeighbourSearchTask {
         const fluid::Travel travel = most_travelled();
         // The lists of the last step allowed for a certain way; how fast particles are now says how far they went.
         fluid::SearchRecord<D>& record = fluid_.record;
-        if (2 * record.step * std::sqrt(travel.speed2) > record.skin) ++fluid_.outrun;
+        if (fluid::outran(travel, record.step, record.skin)) ++fluid_.outrun;
         if (!lists_hold(travel)) rebuild();
         record.step = clock_.step;
         record.skin = fluid::skin_of_step(travel, clock_.step, walls_travel(), fluid_.lists.radius);

@@ -29,9 +29,9 @@ struct FluxEnergyPass {
     Own load(std::size_t i) const { return fields.load(i); }
 
     [[gnu::always_inline]] void pair(const Own& i, std::size_t j, double seen, Sum& sum, std::size_t l) const {
-        double dx[D], r, w, a = 0, b = 0;
-        const PairFlux flux = pair_flux(i, fields, j, seen, dx);
-        pair_geometry<D>(i, fields, j, seen, pair_flux.kernel, dx, r, w);
+        double dx[D], r, r2, w, a = 0, b = 0;
+        const PairFlux flux = pair_flux(i, fields, j, fields.volume[j] * seen, dx);
+        pair_geometry<D>(i, fields, j, fields.volume[j] * seen, pair_flux.kernel, dx, r, r2, w);
         for (int d = 0; d < D; ++d) {
             a += i.v[d] * dx[d];
             b += fields.v[d][j] * dx[d];
@@ -67,10 +67,10 @@ struct ViscousEnergyPass {
     Own load(std::size_t i) const { return fields.load(i); }
 
     [[gnu::always_inline]] void pair(const Own& i, std::size_t j, double seen, Sum& sum, std::size_t l) const {
-        double dx[D], dv[D], r, w, force[D], own = 0, middle = 0;
-        pair_geometry<D>(i, fields, j, seen, kernel, dx, r, w);
+        double dx[D], dv[D], r, r2, w, force[D], own = 0, middle = 0;
+        pair_geometry<D>(i, fields, j, fields.volume[j] * seen, kernel, dx, r, r2, w);
         for (int d = 0; d < D; ++d) dv[d] = fields.v[d][j] - i.v[d];
-        viscous_pair<D, form>(dx, dv, r * r, w, force);
+        viscous_pair<D, form>(dx, dv, r2, w, force);
         for (int d = 0; d < D; ++d) {
             own += dynamic * force[d] * i.v[d];
             middle += dynamic * force[d] * (i.v[d] + 0.5 * dv[d]);

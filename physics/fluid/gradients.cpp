@@ -3,24 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "physics/fluid/pair_loop.hpp"
 
 namespace aquagraph::fluid {
-
-template <>
-double invert_moment<2>(double (&m)[3], double threshold) {
-    const double xx = m[0], xy = m[1], yy = m[2];
-    const double mean = 0.5 * (xx + yy);
-    const double smallest = mean - std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
-    if (smallest > threshold) {
-        const double inverse = 1 / (xx * yy - xy * xy);
-        m[0] = yy * inverse;
-        m[1] = -xy * inverse;
-        m[2] = xx * inverse;
-    }
-    return smallest;
-}
 
 namespace {
 // cos(⅔ acos(s)) on 0 ≤ s ≤ 1: analytic but for s = -1, so that its Chebyshev series falls by 5.8 per term.
@@ -101,7 +88,14 @@ struct GradientPass {
     // Rows of the sums: the moment, ∇p, ∇v.
     static constexpr int row_of_p = moments, row_of_v = row_of_p + (pressure ? D : 0),
                          rows = row_of_v + (velocity ? D * D : 0);
+    // Sums of the particles of a cluster, side by side: so the inversions of its moments share their vectors.
+    struct ClusterSums {
+        double total[rows][W];
+    };
+
     Kernel kernel;
+    ClusterSums& cluster;
+    std::size_t end;
     const double* x[D];
     const double* v[D];
     const double* p;
@@ -110,8 +104,13 @@ struct GradientPass {
     double* grad_v[D][D];
     double* fullness;
 
-    GradientPass(Particles<D>& s, const Kernel& kernel)
-        : kernel(kernel), p(s.p.data()), volume(s.volume.data()), fullness(s.fullness.data()) {
+    GradientPass(Particles<D>& s, const Kernel& kernel, ClusterSums& cluster, std::size_t end)
+        : kernel(kernel),
+          cluster(cluster),
+          end(end),
+          p(s.p.data()),
+          volume(s.volume.data()),
+          fullness(s.fullness.data()) {
         for (int d = 0; d < D; ++d) {
             x[d] = s.x[d].data();
             v[d] = s.v[d].data();
@@ -163,26 +162,43 @@ struct GradientPass {
     }
 
     void store(std::size_t i, const Own&, const Sum& sum) const {
-        double total[rows], b[moments];
+        double total[rows];
         add_lanes(sum.lane, total);
-        for (int k = 0; k < moments; ++k) b[k] = total[k];
-        const double smallest = invert_moment<D>(b, fullness_to_reconstruct);
-        fullness[i] = smallest;
-        if constexpr (!pressure && !velocity) return;
-        const bool full = smallest > fullness_to_reconstruct;
-        double B[D][D];
-        for (int a = 0, k = 0; a < D; ++a)
-            for (int c = a; c < D; ++c, ++k) B[a][c] = B[c][a] = full ? b[k] : 0.0;
-        const auto component = [&](int first_row, int a) {
-            double value = 0;
-            for (int c = 0; c < D; ++c) value += B[a][c] * total[first_row + c];
-            return value;
-        };
-        if constexpr (pressure)
-            for (int a = 0; a < D; ++a) grad_p[a][i] = component(row_of_p, a);
-        if constexpr (velocity)
-            for (int e = 0; e < D; ++e)
-                for (int a = 0; a < D; ++a) grad_v[e][a][i] = component(row_of_v + e * D, a);
+        const std::size_t l = i % W;
+        for (int k = 0; k < rows; ++k) cluster.total[k][l] = total[k];
+        if (l < W - 1 && i + 1 < end) return;
+        for (std::size_t unused = l + 1; unused < W; ++unused)
+            for (int k = 0; k < rows; ++k) cluster.total[k][unused] = 0;
+        finish(i - l);
+    }
+
+    // Inverts the moments of the cluster that begins here, and applies them.
+    [[gnu::noinline]] void finish(std::size_t first) const {
+        const auto& total = cluster.total;
+#pragma omp simd
+        for (std::size_t l = 0; l < W; ++l) {
+            double b[moments];
+            for (int k = 0; k < moments; ++k) b[k] = total[k][l];
+            const double smallest = invert_moment<D>(b, fullness_to_reconstruct);
+            fullness[first + l] = smallest;
+            const bool full = smallest > fullness_to_reconstruct;
+            double B[D][D];
+            for (int a = 0, k = 0; a < D; ++a)
+                for (int c = a; c < D; ++c, ++k) B[a][c] = B[c][a] = full ? b[k] : 0.0;
+            if constexpr (pressure)
+                for (int a = 0; a < D; ++a) {
+                    double value = 0;
+                    for (int c = 0; c < D; ++c) value += B[a][c] * total[row_of_p + c][l];
+                    grad_p[a][first + l] = value;
+                }
+            if constexpr (velocity)
+                for (int e = 0; e < D; ++e)
+                    for (int a = 0; a < D; ++a) {
+                        double value = 0;
+                        for (int c = 0; c < D; ++c) value += B[a][c] * total[row_of_v + e * D + c][l];
+                        grad_v[e][a][first + l] = value;
+                    }
+        }
     }
 };
 
@@ -193,12 +209,16 @@ void compute_gradients(Particles<D>& s, const NeighbourLists<D>& lists, const Ke
                        GradientsOf fields) {
     kernel.visit([&](const auto& k) {
         using K = std::remove_cvref_t<decltype(k)>;
+        const auto run = [&]<class Pass>(std::type_identity<Pass>) {
+            typename Pass::ClusterSums sums;
+            pair_loop<D>(lists, lanes, Pass(s, k, sums, lanes.end));
+        };
         if (fields.velocity)
-            pair_loop<D>(lists, lanes, GradientPass<D, K, true, true>(s, k));
+            run(std::type_identity<GradientPass<D, K, true, true>>());
         else if (fields.pressure)
-            pair_loop<D>(lists, lanes, GradientPass<D, K, true, false>(s, k));
+            run(std::type_identity<GradientPass<D, K, true, false>>());
         else
-            pair_loop<D>(lists, lanes, GradientPass<D, K, false, false>(s, k));
+            run(std::type_identity<GradientPass<D, K, false, false>>());
     });
 }
 

@@ -8,6 +8,7 @@
 // Pair loops use slope = -W'/r, which is positive: ∇W_ij = slope (x_j - x_i). Wendland's is regular at r = 0.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "physics/fluid/choices.hpp"
@@ -37,10 +38,10 @@ class WendlandC2 {
     double derivative(double r) const {  // W' [1/m^(D+1)]
         return -slope(r / radius_) * r;
     }
-    // -W'/r [1/m^(D+2)], zero outside the support.
-    [[gnu::always_inline]] double slope(double q) const {
-        const double u = std::max(0.0, 1 - q);
-        return slope_factor_ * u * u * u;
+    // -W'/r [1/m^(D+2)], zero outside the support, times a factor that costs nothing.
+    [[gnu::always_inline]] double slope(double q, double factor = 1) const {
+        const double u = 1 - q, twice = u + std::fabs(u);  // 2 max(u, 0), exactly
+        return 0.125 * factor * slope_factor_ * twice * twice * twice;
     }
     double slope_factor() const { return slope_factor_; }
 
@@ -73,10 +74,10 @@ class CubicSpline {
         return -slope(r / radius_) * r;
     }
     // -W'/r [1/m^(D+2)], zero outside the support.
-    [[gnu::always_inline]] double slope(double q) const {
+    [[gnu::always_inline]] double slope(double q, double factor = 1) const {
         const double u = std::max(0.0, 1 - q);
         const double inner = 4 - 6 * q, outer = 2 * u * u / std::max(q, 0.5);
-        return slope_factor_ * (q < 0.5 ? inner : outer);
+        return factor * slope_factor_ * (q < 0.5 ? inner : outer);
     }
 
   private:

@@ -19,8 +19,8 @@ struct Places {
     }
 };
 
-// Squared distances [m²] from `own` to the W lanes of a cluster that begin at `first`; below() gives bit l where lane l
-// is closer than a limit.
+// Squared distances [m²] from `own` to the W lanes of a cluster that begin at `first`; below() gives bit l where that
+// of lane l is smaller than a limit [m²], to which the square of the lane's velocity relative to `velocity` may add.
 #ifdef __AVX512F__
 template <int D>
 class LaneDistances {
@@ -35,6 +35,16 @@ class LaneDistances {
     }
     [[gnu::always_inline]] unsigned below(double limit) const {
         return _mm512_cmp_pd_mask(squared_, _mm512_set1_pd(limit), _CMP_LT_OQ);
+    }
+    [[gnu::always_inline]] unsigned below(double limit, double per_speed, const Places<D>& velocities,
+                                          std::size_t first, const double (&velocity)[D]) const {
+        __m512d speed;  // squared
+        for (int d = 0; d < D; ++d) {
+            const __m512d dv = _mm512_sub_pd(_mm512_loadu_pd(velocities.x[d] + first), _mm512_set1_pd(velocity[d]));
+            speed = d == 0 ? _mm512_mul_pd(dv, dv) : _mm512_fmadd_pd(dv, dv, speed);
+        }
+        return _mm512_cmp_pd_mask(squared_, _mm512_fmadd_pd(_mm512_set1_pd(per_speed), speed, _mm512_set1_pd(limit)),
+                                  _CMP_LT_OQ);
     }
 
   private:
@@ -60,6 +70,20 @@ class LaneDistances {
         unsigned bits = 0;
 #pragma omp simd reduction(+ : bits)
         for (unsigned l = 0; l < W; ++l) bits += squared_[l] < limit ? 1u << l : 0u;
+        return bits;
+    }
+    unsigned below(double limit, double per_speed, const Places<D>& velocities, std::size_t first,
+                   const double (&velocity)[D]) const {
+        unsigned bits = 0;
+#pragma omp simd reduction(+ : bits)
+        for (unsigned l = 0; l < W; ++l) {
+            double speed = 0;
+            for (int d = 0; d < D; ++d) {
+                const double dv = velocities.x[d][first + l] - velocity[d];
+                speed += dv * dv;
+            }
+            bits += squared_[l] < limit + per_speed * speed ? 1u << l : 0u;
+        }
         return bits;
     }
 

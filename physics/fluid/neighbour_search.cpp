@@ -23,18 +23,39 @@ void append_entries(const Particles<D>& particles, const NeighbourLists<D>& list
         in_support = distances.below(radius2) & others;
         return distances.below(reach2) & others;
     };
+    // Clusters of this block behind the particle's own come first, those before it last.
+    const std::size_t block_first = own_cluster / clusters_per_block * clusters_per_block,
+                      block_end = std::min(block_first + clusters_per_block, particles.clusters());
+    using Place = std::vector<std::uint32_t>::const_iterator;
+    const auto from = [&](std::size_t cluster) -> Place {
+        return std::lower_bound(candidates.begin(), candidates.end(), std::uint32_t(cluster));
+    };
+    const Place lower = from(block_first), own_place = from(own_cluster), higher = from(own_cluster + 1),
+                beyond = from(block_end);
+    const std::pair<Place, Place> parts[] = {{higher, beyond},
+                                             {candidates.begin(), lower},
+                                             {own_place, higher},
+                                             {beyond, candidates.end()},
+                                             {lower, own_place}};
+    const std::size_t begin = out.open.size();
+    std::size_t mutual = 0, between = 0;
     if (!filter || filter->sees_everything(i)) {
-        std::size_t count = out.open.size();
+        std::size_t count = begin;
         out.open.resize(count + candidates.size());
-        for (const std::uint32_t candidate : candidates) {
-            unsigned in_support;
-            const unsigned in_reach = look(candidate, in_support);
-            pairs += std::uint64_t(__builtin_popcount(in_support));
-            out.open[count] = candidate;  // overwritten by the next one unless it counts
-            count += in_reach != 0;
+        for (std::size_t part = 0; part < 5; ++part) {
+            for (Place candidate = parts[part].first; candidate != parts[part].second; ++candidate) {
+                unsigned in_support;
+                const unsigned in_reach = look(*candidate, in_support);
+                pairs += std::uint64_t(__builtin_popcount(in_support));
+                out.open[count] = *candidate;  // overwritten by the next one unless it counts
+                count += in_reach != 0;
+            }
+            if (part == 0) mutual = count - begin;
+            if (part == 3) between = count - begin;
         }
         out.open.resize(count);
     } else {
+        out.reciprocal = false;
         for (const std::uint32_t candidate : candidates) {
             unsigned in_support;
             const unsigned in_reach = look(candidate, in_support);
@@ -48,9 +69,11 @@ void append_entries(const Particles<D>& particles, const NeighbourLists<D>& list
                 out.mask.push_back(std::uint8_t(seen));
             }
         }
+        between = out.open.size() - begin;
     }
     out.pairs += pairs;
-    out.particle.push_back({std::uint32_t(out.open.size()), std::uint32_t(out.masked.size())});
+    out.particle.push_back({std::uint32_t(out.open.size()), std::uint32_t(out.masked.size()), std::uint16_t(mutual),
+                            std::uint16_t(out.open.size() - begin - between)});
 }
 
 template <int D>
@@ -68,6 +91,7 @@ void NeighbourSearch<D>::build(const Particles<D>& particles, NeighbourLists<D>&
         thread_local std::vector<std::uint32_t> candidates;
         NeighbourBlock& out = lists.blocks[block];
         out.clear();
+        out.reciprocal = true;
         const std::size_t last = std::min(particles.clusters(), (block + 1) * clusters_per_block);
         for (std::size_t cluster = block * clusters_per_block; cluster < last; ++cluster) {
             grid_.candidates(particles, cluster, candidates);

@@ -37,6 +37,7 @@ void build_with_tree(const Particles<D>& particles, NeighbourLists<D>& lists, co
         std::vector<std::uint32_t> candidates;
         NeighbourBlock& out = lists.blocks[block];
         out.clear();
+        out.reciprocal = true;
         const LaneRange lanes = lanes_of_block(particles, block);
         for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
             double x[D];

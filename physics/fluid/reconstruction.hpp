@@ -6,10 +6,12 @@
 
 namespace aquagraph::fluid {
 
-// The one of smaller magnitude if both have the same sign, else 0: the middle one of 0, a and b. Where two slopes are
-// limited by the same difference b, half of the work is shared.
-[[gnu::always_inline]] inline double minmod(double a, double b) {
-    return std::max(std::min(b, 0.0), std::min(std::max(b, 0.0), a));
+// 2 minmod(a, b), of 2a and b. minmod is the one of smaller magnitude if both have the same sign, else 0: the middle
+// one of 0, a and b, that is max(min(b, 0), min(max(b, 0), a)). b ± |b| are 2 max(b, 0) and 2 min(b, 0), exactly, by
+// additions; a comparison with zero would take the place of a multiplication, of which a flux is full.
+[[gnu::always_inline]] inline double twice_minmod(double twice_a, double b) {
+    const double size = std::fabs(b);
+    return std::max(b - size, std::min(b + size, twice_a));
 }
 
 }  // namespace aquagraph::fluid

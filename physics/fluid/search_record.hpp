@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "physics/fluid/neighbour_lists.hpp"
 #include "physics/fluid/walls/panels.hpp"
 
 namespace aquagraph::fluid {
@@ -11,7 +12,7 @@ struct SearchRecord {
     bool made = false;          // the lists are a search's: those from before the run do not say where walls stood
     std::vector<Vec<D>> walls;  // vertices of walls when the lists were made [m]
     double step = 0;            // Δt that the last search allowed for [s] …
-    double skin = 0;            // … and the skin of its pruned lists [m]
+    StepSkin skin = 0;          // … and the skin of its pruned lists
 
     template <class Archive>
     void archive(Archive& fields) {  // for a checkpoint

@@ -97,9 +97,33 @@ bool same(const NeighbourLists<D>& one, const NeighbourLists<D>& other) {
     for (std::size_t b = 0; b < one.blocks.size(); ++b) {
         const NeighbourBlock &p = one.blocks[b], &q = other.blocks[b];
         const bool ends =
-            std::equal(p.particle.begin(), p.particle.end(), q.particle.begin(), q.particle.end(),
-                       [](auto a, auto c) { return a.open_end == c.open_end && a.masked_end == c.masked_end; });
-        if (!ends || p.open != q.open || p.masked != q.masked || p.mask != q.mask || p.pairs != q.pairs) return false;
+            std::equal(p.particle.begin(), p.particle.end(), q.particle.begin(), q.particle.end(), [](auto a, auto c) {
+                return a.open_end == c.open_end && a.masked_end == c.masked_end && a.mutual == c.mutual &&
+                       a.lower == c.lower;
+            });
+        if (!ends || p.reciprocal != q.reciprocal || p.open != q.open || p.masked != q.masked || p.mask != q.mask ||
+            p.pairs != q.pairs)
+            return false;
+    }
+    return true;
+}
+
+// The first entries of a particle are clusters of its block behind its own, the last ones those before; together with
+// the particle's own cluster, all of its block: so each pair inside a block stands once among the first.
+template <int D>
+bool in_order(const Particles<D>& s, const NeighbourLists<D>& lists) {
+    for (std::size_t i = 0; i < s.count; ++i) {
+        const std::size_t block = i / (clusters_per_block * W), own = i / W, local = i - block * clusters_per_block * W;
+        const NeighbourBlock& list = lists.visited(block);
+        const auto from = list.particle[local], to = list.particle[local + 1];
+        for (std::uint32_t k = from.open_end; k < to.open_end; ++k) {
+            const std::size_t cluster = list.open[k];
+            const bool inside = cluster < s.clusters() && cluster / clusters_per_block == block;
+            const bool first = k - from.open_end < to.mutual, last = to.open_end - k <= to.lower;
+            if (list.reciprocal && (first != (inside && cluster > own) || last != (inside && cluster < own)))
+                return false;
+            if (!list.reciprocal && first && !(inside && cluster > own)) return false;
+        }
     }
     return true;
 }
@@ -110,6 +134,7 @@ void check_lists(const Particles<D>& s, double radius, double skin) {
     REQUIRE(lists.blocks.size() == s.blocks());
     const Neighbours expected = by_double_loop(s, radius);
     CHECK(visited(s, lists, radius) == expected);
+    CHECK(in_order(s, lists));
     CHECK(by_tree(s, radius) == expected);
     CHECK(lists.pairs() == number_of_pairs(expected));
     CHECK(visited(s, lists, lists.reach()) == by_double_loop(s, lists.reach()));
@@ -209,6 +234,7 @@ void check_pruning(const PairFilter<D>* filter, const Particles<D>& placed, Rand
     prune(s, lists, inner_skin, serial_loop);
     REQUIRE(lists.pruned);
     CHECK(visited(s, lists, radius + inner_skin) == before);
+    CHECK(in_order(s, lists));
     for (std::size_t b = 0; b < lists.blocks.size(); ++b) {
         entries += lists.blocks[b].open.size() + lists.blocks[b].masked.size();
         left += lists.inner[b].particle.back().open_end + lists.inner[b].particle.back().masked_end;
@@ -225,6 +251,38 @@ void check_pruning(const PairFilter<D>* filter, const Particles<D>& placed, Rand
     CHECK(pruned == visited(s, lists, radius));
     prune(s, lists, skin, serial_loop);  // nothing to be gained
     CHECK(!lists.pruned);
+}
+
+// Lists pruned with the velocities hold the pairs of the whole step that these take particles through, images or none.
+template <int D>
+void check_moving(const std::vector<Point<D>>& ghosts, Random& random) {
+    CAPTURE(D);
+    CAPTURE(ghosts.size());
+    const double radius = 0.25, skin = 0.06, dt = 0.01;
+    Particles<D> s = place<D>(random_cloud<D>(1300, 1, random), 0.05, ghosts);
+    // A stream that shears: neighbours move together, particles far away do not.
+    for (std::size_t i = 0; i < s.count; ++i) {
+        s.v[0][i] = 3 * s.x[1][i] + 0.1 * random();
+        s.v[1][i] = 2 + 0.1 * random();
+        for (std::size_t d = 0; d < D; ++d) s.acceleration[d][i] = 5 * random();
+    }
+    auto lists = lists_of<D>(s, radius, skin);
+    Travel most;
+    for (std::size_t block = 0; block < s.blocks(); ++block) most = largest(most, travel(s, lanes_of_block(s, block)));
+    const StepSkin allowed = skin_of_step(most, dt, 0, radius);
+    REQUIRE(allowed.particles < 0.5 * allowed.images);
+    prune(s, lists, allowed, serial_loop);
+    REQUIRE(lists.pruned);
+    CHECK(in_order(s, lists));
+    for (std::size_t i = 0; i < s.count; ++i)
+        for (std::size_t d = 0; d < D; ++d) s.x[d][i] += dt * s.v[d][i] + 0.5 * dt * dt * s.acceleration[d][i];
+    const Neighbours pruned = visited(s, lists, radius);
+    std::size_t lanes = 0, all = 0;
+    for (const auto& of : visited(s, lists, 1e9)) lanes += of.size();
+    lists.pruned = false;
+    for (const auto& of : visited(s, lists, 1e9)) all += of.size();
+    CHECK(pruned == visited(s, lists, radius));
+    CHECK(lanes < all);
 }
 
 // Hides every pair whose numbers add up to a multiple of three.
@@ -270,16 +328,32 @@ TEST_CASE("pruned lists visit every pair of the coming step") {
     check_pruning<3>(nullptr, place<3>(random_cloud<3>(1300, 1, random), 0.1), random);
 }
 
+TEST_CASE("lists pruned with velocities hold every pair of the step that these make") {
+    Random random(5);
+    check_moving<2>({}, random);
+    check_moving<2>(random_cloud<2>(60, 1, random), random);
+    check_moving<3>({}, random);
+}
+
 TEST_CASE("the skin of a step covers what particles and walls move in it") {
     Random random;
     Particles<2> s = place<2>(random_cloud<2>(100, 1, random), 0.1);
-    CHECK(skin_of_step(travel(s, lanes_of_block(s, 0)), 0.1, 0, 1) == std::numeric_limits<double>::infinity());
+    const StepSkin unknown = skin_of_step(travel(s, lanes_of_block(s, 0)), 0.1, 0, 1);
+    CHECK(unknown.images == std::numeric_limits<double>::infinity());
+    CHECK(unknown.particles == std::numeric_limits<double>::infinity());
     s.v[0][17] = 3;
     s.acceleration[1][50] = -2;
     const Travel most = travel(s, lanes_of_block(s, 0));
     CHECK(most.of_step(0.1) == doctest::Approx(0.32));
-    CHECK(skin_of_step(most, 0.1, 0.05, 1) >= 2 * (0.32 + 0.05));
-    CHECK(skin_of_step(most, 1e-9, 0, 1) == 0.02);
+    CHECK(skin_of_step(most, 0.1, 0.05, 1).images >= 2 * (0.32 + 0.05));
+    CHECK(skin_of_step(most, 1e-9, 0, 1).images == 0.02);
+    CHECK(skin_of_step(most, 1e-9, 0, 1).particles == 0.02);
+    // Two particles under accelerations of 2 at most: ½ Δt² (2 + 2), and what their relative velocity takes them.
+    CHECK(skin_of_step(most, 0.1, 0.05, 1).particles >= 0.02 + 2 * 0.05);
+    CHECK(skin_of_step(most, 0.1, 0.05, 1).step >= 0.1);
+    CHECK(!outran(most, 0.1, skin_of_step(most, 0.1, 0, 1)));
+    CHECK(outran(most, 0.1, StepSkin(0.59, 1, 0)));   // an image, at 3 m/s each
+    CHECK(outran(most, 0.1, StepSkin(1, 0.019, 0)));  // a particle
 }
 
 TEST_CASE("a filter hides lanes, and only those it names") {

@@ -84,7 +84,7 @@ Vec2 force_on_ghost(const fluid::FluxFields<2>& fields, const Pair& pair_flux, s
 #pragma omp simd reduction(- : fx, fy)
     for (std::size_t k = 0; k < n; ++k) {
         double dx[2];
-        const auto flux = pair_flux(own, fields, neighbour[k], 1.0, dx);
+        const auto flux = pair_flux(own, fields, neighbour[k], fields.volume[neighbour[k]], dx);
         fx -= flux.pressure * dx[0];
         fy -= flux.pressure * dx[1];
     }

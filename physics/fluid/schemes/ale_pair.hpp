@@ -46,13 +46,14 @@ struct AlePair {
     [[gnu::always_inline]] AleFlux<D> operator()(const PairState<D>& i, const double (&shift_i)[D],
                                                  const FluxFields<D>& s, const double* const (&shift)[D], std::size_t j,
                                                  double seen, double exchange) const {
-        double dx[D], r, w, p_e, U_e;
-        pair_geometry<D>(i, s, j, seen, kernel, dx, r, w);
-        // All velocities relative to v_i; those of `at` doubled.
+        double dx[D], r, r2, w, p_e, U_e;
+        pair_geometry<D>(i, s, j, s.volume[j] * seen, kernel, dx, r, r2, w);
+        // All velocities relative to v_i.
         const auto at = reconstruct<D, muscl>(i, s, j, dx);
-        solve_riemann<solver>(tait, r, at, i.impedance, s.impedance[j], p_e, U_e);
-        p_e *= 0.5;
-        U_e *= 0.5;
+        constexpr double to_v = 1 / at.scale, to_U = 0.5 * to_v;
+        solve_riemann<solver>(tait, r, r2, at, i.impedance, s.impedance[j], p_e, U_e);
+        p_e *= to_U;
+        U_e *= to_U;
         double U0_i = 0, U0_j = 0;
         for (int d = 0; d < D; ++d) {
             U0_i += shift_i[d] * dx[d];
@@ -61,12 +62,12 @@ struct AlePair {
         const double U0 = exchange > 0 ? 0.5 * (U0_i + U0_j) : U_e;
         const double flow = U_e - U0;  // > 0: from i to j
         const double rho_flow = density(p_e) * flow;
-        const double correction = (U_e - 0.5 * (flow > 0 ? at.U_L : at.U_L + at.U_jump)) / (r * r);
+        const double correction = (U_e - to_U * (flow > 0 ? at.U_L : at.U_L + at.U_jump)) / r2;
         AleFlux<D> flux;
         flux.dilation = 2 * (U0 - U0_i) * w;
         flux.mass = 2 * rho_flow * w;
         for (int d = 0; d < D; ++d) {
-            const double v_e = i.v[d] + 0.5 * (flow > 0 ? at.v_L[d] : at.v_R[d]) + correction * dx[d];
+            const double v_e = i.v[d] + to_v * (flow > 0 ? at.v_L[d] : at.v_R[d]) + correction * dx[d];
             flux.momentum[d] = 2 * (rho_flow * v_e + p_e * dx[d]) * w;
         }
         return flux;

@@ -22,15 +22,15 @@ struct ArtificialViscosityPair {
         : kernel(kernel), strength(alpha * kernel.radius()), softening(0.01 * kernel.radius() * kernel.radius()) {}
 
     [[gnu::always_inline]] PairFlux operator()(const PairState<D>& i, const FluxFields<D>& s, std::size_t j,
-                                               double seen, double (&dx)[D]) const {
-        double r, w, approach = 0;
-        pair_geometry<D>(i, s, j, seen, kernel, dx, r, w);
+                                               double weight, double (&dx)[D]) const {
+        double r, r2, w, approach = 0;
+        pair_geometry<D>(i, s, j, weight, kernel, dx, r, r2, w);
         for (int d = 0; d < D; ++d) approach += (s.v[d][j] - i.v[d]) * dx[d];
         const double Z_i = i.impedance, Z_j = s.impedance[j];
         // One division: 2 Z_i Z_j / ((Z_i + Z_j)(r² + ε R²)).
         const double dissipation =
             -strength * std::min(approach, 0.0) * 2 * Z_i * Z_j / ((Z_i + Z_j) * (r * r + softening));
-        return {(i.p + s.p[j] + dissipation) * w, approach * w};
+        return {(i.p + s.p[j] + dissipation) * w, approach * w, approach * w};
     }
 };
 

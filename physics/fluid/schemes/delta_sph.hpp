@@ -23,18 +23,18 @@ struct DeltaSphPair {
           viscosity(0.5 * alpha * kernel.radius() * tait.sound_speed * tait.reference_density) {}
 
     [[gnu::always_inline]] PairFlux operator()(const PairState<D>& i, const FluxFields<D>& s, std::size_t j,
-                                               double seen, double (&dx)[D]) const {
-        double r, w;
-        pair_geometry<D>(i, s, j, seen, kernel, dx, r, w);
+                                               double weight, double (&dx)[D]) const {
+        double r, r2, w;
+        pair_geometry<D>(i, s, j, weight, kernel, dx, r, r2, w);
         double approach = 0, slopes = 0;  // x_ij·v_ij, (∇p_i + ∇p_j)·x_ij
         for (int d = 0; d < D; ++d) {
             approach += (s.v[d][j] - i.v[d]) * dx[d];
             slopes += (s.grad_p[d][j] + i.grad_p[d]) * dx[d];
         }
         // Π ∇W and ψ·∇W: ∇W_ij ω_j = w x_ij, so ψ·∇W ω_j = w × the bracket, and Π has 1/|x_ij|² left.
-        const double dissipation = viscosity * approach / (r * r);
+        const double dissipation = viscosity * approach / r2;
         const double jump = s.p[j] - i.p - 0.5 * slopes;
-        return {(i.p + s.p[j] - dissipation) * w, (approach - diffusion * jump) * w};
+        return {(i.p + s.p[j] - dissipation) * w, (approach - diffusion * jump) * w, approach * w};
     }
 };
 

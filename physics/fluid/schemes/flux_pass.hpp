@@ -33,24 +33,39 @@ struct FluxPass {
         }
     }
 
-    using Own = PairState<D>;
+    struct Own : PairState<D> {
+        double volume;
+    };
     struct Sum {
-        double force[D][W], dilation[W];
+        double lane[D + 1][W];  // forces, dilation
     };
 
-    Own load(std::size_t i) const { return fields.load(i); }
+    Own load(std::size_t i) const { return {fields.load(i), fields.volume[i]}; }
 
     [[gnu::always_inline]] void pair(const Own& i, std::size_t j, double seen, Sum& sum, std::size_t l) const {
         double dx[D];
-        const PairFlux flux = pair_flux(i, fields, j, seen, dx);
-        for (int d = 0; d < D; ++d) sum.force[d][l] -= flux.pressure * dx[d];
-        sum.dilation[l] += flux.dilation;
+        const PairFlux flux = pair_flux(i, fields, j, fields.volume[j] * seen, dx);
+        for (int d = 0; d < D; ++d) sum.lane[d][l] -= flux.pressure * dx[d];
+        sum.lane[D][l] += flux.dilation;
     }
 
-    void store(std::size_t i, const Own&, const Sum& sum) const {
-        const double inverse_density = fields.volume[i] / mass[i];
-        for (int d = 0; d < D; ++d) acceleration[d][i] = gravity[d] + inverse_density * add_lanes(sum.force[d]);
-        deviation_rate[i] = -(reference_density + deviation[i]) * add_lanes(sum.dilation);
+    // What the pair gives to both.
+    [[gnu::always_inline]] void pair(const Own& i, std::size_t j, Sum& to_i, Sum& to_j, std::size_t l) const {
+        double dx[D];
+        const PairFlux flux = pair_flux(i, fields, j, 1.0, dx);  // per volume of the other
+        const double on_i = flux.pressure * fields.volume[j], on_j = flux.pressure * i.volume;
+        for (int d = 0; d < D; ++d) {
+            to_i.lane[d][l] -= on_i * dx[d];
+            to_j.lane[d][l] += on_j * dx[d];
+        }
+        to_i.lane[D][l] += flux.dilation * fields.volume[j];
+        to_j.lane[D][l] += ((flux.closing + flux.closing) - flux.dilation) * i.volume;
+    }
+
+    void store(std::size_t i, const Own& own, const Sum& sum) const {
+        const double inverse_density = own.volume / mass[i];
+        for (int d = 0; d < D; ++d) acceleration[d][i] = gravity[d] + inverse_density * add_lanes(sum.lane[d]);
+        deviation_rate[i] = -(reference_density + deviation[i]) * add_lanes(sum.lane[D]);
     }
 };
 

@@ -45,20 +45,23 @@ struct FluxFields {
 struct PairFlux {
     double pressure;  // [Pa/m^2·m^D…]: the force on i per own volume is -pressure (x_j - x_i)
     double dilation;  // dω_i/dt = ω_i Σ dilation [1/s]
+    double
+        closing;  // (v_j - v_i)·∇W_ij ω_j; what j gets is -pressure (x_i - x_j) and 2 closing - dilation, times ω_i/ω_j
 };
 
-// The vector from i to j = lane j, its length, and w with ∇W_ij ω_j = w (x_j - x_i). `seen` is 0 where a wall hides j.
+// The vector from i to j = lane j, its length and its square, and w with factor ∇W_ij weight = w (x_j - x_i). The
+// weight is ω_j, or 0 where a wall hides j.
 template <int D, class Kernel>
 [[gnu::always_inline]] inline void pair_geometry(const PairState<D>& i, const FluxFields<D>& s, std::size_t j,
-                                                 double seen, const Kernel& kernel, double (&dx)[D], double& r,
-                                                 double& w) {
-    double r2 = 1e-200;  // keeps the particle's own lane finite; its dx is zero, and so is its flux
+                                                 double weight, const Kernel& kernel, double (&dx)[D], double& r,
+                                                 double& r2, double& w, double factor = 1) {
+    r2 = 1e-200;  // keeps the particle's own lane finite; its dx is zero, and so is its flux
     for (int d = 0; d < D; ++d) {
         dx[d] = s.x[d][j] - i.x[d];
         r2 += dx[d] * dx[d];
     }
     r = std::sqrt(r2);
-    w = kernel.slope(r * kernel.inverse_radius()) * s.volume[j] * seen;
+    w = kernel.slope(r * kernel.inverse_radius(), factor) * weight;
 }
 
 }  // namespace aquagraph::fluid

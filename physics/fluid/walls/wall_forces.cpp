@@ -35,7 +35,7 @@ void WallForces<D>::rebuild(const Fluid<D>& fluid, const GhostWalls<D>& walls) {
         to.open.clear();
         to.masked.clear();
         to.mask.clear();
-        to.particle.assign(from.particle.size(), {0, 0});
+        to.particle.assign(from.particle.size(), {0, 0, 0, 0});
         const LaneRange lanes = fluid.lanes(block);
         for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
             const std::size_t before = to.masked.size();
@@ -55,7 +55,7 @@ void WallForces<D>::rebuild(const Fluid<D>& fluid, const GhostWalls<D>& walls) {
             const auto begin = from.particle[i - lanes.begin], end = from.particle[i - lanes.begin + 1];
             for (auto k = begin.open_end; k < end.open_end; ++k) keep(from.open[k], 0xff);
             for (auto k = begin.masked_end; k < end.masked_end; ++k) keep(from.masked[k], from.mask[k]);
-            to.particle[i - lanes.begin + 1] = {0, std::uint32_t(to.masked.size())};
+            to.particle[i - lanes.begin + 1] = {0, std::uint32_t(to.masked.size()), 0, 0};
             if (to.masked.size() == before) continue;
             needed_[i / W] = 1;
             if (clusters_.empty() || clusters_.back() != i / W) clusters_.push_back(std::uint32_t(i / W));
