@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/gradients.hpp"
@@ -81,13 +82,21 @@ class WaterBlock {
         };
         double dt = 0;
         timed("step, lists", [&] {
+            struct Block {
+                fluid::StepLimits limits;
+                fluid::Travel travel;
+            };
+            std::vector<Block> of(fluid.blocks());
+            loop(fluid.blocks(), [&](std::size_t block) {
+                const auto lanes = fluid.lanes(block);
+                of[block] = {step_limits(s, fluid.cfl, fluid.kernel.radius(), lanes, fluid.kinematic_viscosity()),
+                             fluid::travel(s, lanes)};
+            });
             fluid::StepLimits limits;
             fluid::Travel travel;
-            for (std::size_t block = 0; block < fluid.blocks(); ++block) {
-                const auto lanes = fluid.lanes(block);
-                limits = combine(limits,
-                                 step_limits(s, fluid.cfl, fluid.kernel.radius(), lanes, fluid.kinematic_viscosity()));
-                travel = largest(travel, fluid::travel(s, lanes));
+            for (const Block& block : of) {
+                limits = combine(limits, block.limits);
+                travel = largest(travel, block.travel);
             }
             dt = limits.step();
             if (travel.so_far() + travel.of_step(dt) >= 0.5 * fluid.lists.skin) rebuild(loop);
