@@ -6,7 +6,7 @@ namespace aquagraph::benchmarks {
 
 std::string solid_tables(int threads);
 
-// The linear solvers on 2.7·10⁵ unknowns in 3D: about a quarter of an hour on two cores and 8 GB.
+// The linear solvers on 2.7·10⁵ unknowns in 3D: twenty minutes on two cores.
 std::string large_solid_table(int threads);
 
 }  // namespace aquagraph::benchmarks
