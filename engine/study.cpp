@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <functional>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <thread>
 
+#include "engine/study_plots.hpp"
 #include "engine/study_report.hpp"
 #include "engine/study_runs.hpp"
 
@@ -54,27 +58,15 @@ std::string in_short(const RunRecord& record) {
     return text;
 }
 
-}  // namespace
-
-ExitCode study(const io::Study& study, const StudyOptions& options, std::ostream& out, std::ostream& err) {
-    const std::filesystem::path program =
-        options.program.empty() ? std::filesystem::read_symlink("/proc/self/exe") : options.program;
-    const std::filesystem::path folder =
-        options.folder.empty() ? std::filesystem::path("results") / ("study_" + study.name) : options.folder;
-    const std::vector<StudyRun> runs = runs_of(study, options.coarse, options.only, program, options.threads);
-    if (runs.empty())
-        throw std::invalid_argument("no run has any of what --only says in its name: see --list without --only");
-    if (options.list) {
-        list_runs(study, runs, out);
-        return success;
-    }
-
-    const StopGuard guard;
-    const auto stop = [] { return stop_requested != 0; };
+// Runs everything `repeats` times in turn, or takes what is kept. Ends early where `stop` says so.
+std::vector<StudyResult> make_runs(const io::Study& study, const std::vector<StudyRun>& runs,
+                                   const StudyOptions& options, const std::filesystem::path& program,
+                                   const std::filesystem::path& folder, const std::function<bool()>& stop,
+                                   std::ostream& err) {
     const int repeats = options.repeats > 0 ? options.repeats : study.repeats;
     std::vector<StudyResult> results;
     for (const StudyRun& run : runs) results.push_back({run, {}});
-    std::size_t number = 0, failed = 0;
+    std::size_t number = 0;
     for (int repeat = 0; repeat < repeats && !stop(); ++repeat)
         for (StudyResult& result : results) {
             const StudyRun& run = result.run;
@@ -90,12 +82,97 @@ ExitCode study(const io::Study& study, const StudyOptions& options, std::ostream
                 // A run that could not even begin may have met a passing trouble.
                 if (record->failure.empty() || record->steps > 0) keep_run(folder / "kept", run, repeat, *record);
             }
-            failed += !record->failure.empty();
             err << fmt::format("[{}/{}] {}{}: {}\n", ++number, runs.size() * std::size_t(repeats), name_of(study, run),
                                kept ? " (kept)" : "", in_short(*record))
                 << std::flush;
             result.repeats.push_back(*std::move(record));
         }
+    return results;
+}
+
+// Where a study's sections go.
+struct Places {
+    std::filesystem::path file;  // with all cases; empty: standard output
+    std::string name;            // of its section
+    struct Readme {
+        std::size_t study_case;
+        std::filesystem::path file;
+        std::string name;
+    };
+    std::vector<Readme> readmes;  // those that have markers for their case
+};
+
+// Throws std::runtime_error where a file has one marker of two: before hours of computing, not after them.
+Places places_of(const io::Study& study, const StudyOptions& options) {
+    const bool part = options.coarse || !options.only.empty();
+    const std::filesystem::path beside = study.file.parent_path() / "RESULTS.md";
+    Places places{
+        options.out.empty() && !part ? beside : options.out, study.name + (options.coarse ? "-coarse" : ""), {}};
+    if (places.file.empty()) return places;
+    has_section(places.file, places.name);
+    // READMEs refer to the results beside the study, and to all of them.
+    if (part || std::filesystem::weakly_canonical(places.file) != std::filesystem::weakly_canonical(beside))
+        return places;
+    for (std::size_t c = 0; c < study.cases.size(); ++c) {
+        const std::filesystem::path readme = study.cases[c].scene.parent_path() / "README.md";
+        const std::string name = study.name + "/" + study.cases[c].name;
+        if (has_section(readme, name)) places.readmes.push_back({c, readme, name});
+    }
+    return places;
+}
+
+void write_sections(const io::Study& study, const std::vector<StudyResult>& results, const Places& places, int threads,
+                    bool coarse, std::ostream& out, std::ostream& err) {
+    if (places.file.empty()) {
+        out << study_markdown(study, results, {}, threads, coarse);
+        return;
+    }
+    const std::filesystem::path folder = std::filesystem::absolute(places.file).parent_path();
+    std::vector<std::string> plots;
+    bool drawn = false;
+    for (const std::filesystem::path& plot : draw_plots(study, results, folder / "plots", coarse)) {
+        plots.push_back(plot.empty() ? "" : "plots/" + plot.filename().string());
+        drawn = drawn || !plot.empty();
+    }
+    if (!drawn)
+        err << "aquagraph: no plots: gnuplot (Debian: gnuplot-nox) is not there, or no run has an error to draw\n";
+    put_section(places.file, places.name, study_markdown(study, results, plots, threads, coarse));
+    out << fmt::format("the section \"{}\" of {} is written\n", places.name, places.file.string());
+    for (const auto& [study_case, readme, name] : places.readmes) {
+        const std::filesystem::path everything =
+            std::filesystem::proximate(std::filesystem::absolute(places.file), readme.parent_path());
+        put_section(readme, name, case_markdown(study, study_case, results, threads, everything.string()));
+        out << fmt::format("the section \"{}\" of {} is written\n", name, readme.string());
+    }
+}
+
+std::size_t failures(const std::vector<StudyResult>& results) {
+    std::size_t failed = 0;
+    for (const StudyResult& result : results)
+        failed += std::size_t(std::count_if(result.repeats.begin(), result.repeats.end(),
+                                            [](const RunRecord& record) { return !record.failure.empty(); }));
+    return failed;
+}
+
+}  // namespace
+
+ExitCode study(const io::Study& study, const StudyOptions& options, std::ostream& out, std::ostream& err) {
+    const std::filesystem::path program =
+        options.program.empty() ? std::filesystem::read_symlink("/proc/self/exe") : options.program;
+    const std::filesystem::path folder =
+        options.folder.empty() ? std::filesystem::path("results") / ("study_" + study.name) : options.folder;
+    const std::vector<StudyRun> runs = runs_of(study, options.coarse, options.only, program, options.threads);
+    if (runs.empty())
+        throw std::invalid_argument("no run has any of what --only says in its name: see --list without --only");
+    if (options.list) {
+        list_runs(study, runs, out);
+        return success;
+    }
+    const Places places = places_of(study, options);
+
+    const StopGuard guard;
+    const auto stop = [] { return stop_requested != 0; };
+    const std::vector<StudyResult> results = make_runs(study, runs, options, program, folder, stop, err);
     if (stop()) {
         err << fmt::format("aquagraph: interrupted; the finished runs are kept in {}, start again to go on\n",
                            (folder / "kept").string());
@@ -103,26 +180,9 @@ ExitCode study(const io::Study& study, const StudyOptions& options, std::ostream
     }
 
     const int threads = options.threads > 0 ? options.threads : int(std::thread::hardware_concurrency());
-    const bool part = options.coarse || !options.only.empty();
-    const std::filesystem::path file =
-        options.out.empty() && !part ? study.file.parent_path() / "RESULTS.md" : options.out;
-    const std::string name = study.name + (options.coarse ? "-coarse" : "");
-    if (file.empty()) {
-        out << study_markdown(study, results, {}, threads, options.coarse);
-    } else {
-        const std::filesystem::path beside = std::filesystem::absolute(file).parent_path() / "plots";
-        std::vector<std::string> plots;
-        bool drawn = false;
-        for (const std::filesystem::path& plot : draw_plots(study, results, beside)) {
-            plots.push_back(plot.empty() ? "" : "plots/" + plot.filename().string());
-            drawn = drawn || !plot.empty();
-        }
-        if (!drawn)
-            err << "aquagraph: no plots: gnuplot (Debian: gnuplot-nox) is not there, or no run has an error to draw\n";
-        put_section(file, name, study_markdown(study, results, plots, threads, options.coarse));
-        out << fmt::format("the section \"{}\" of {} is written\n", name, file.string());
-    }
-    if (failed > 0) err << fmt::format("aquagraph: {} runs have failed; the tables say which and why\n", failed);
+    write_sections(study, results, places, threads, options.coarse, out, err);
+    if (const std::size_t failed = failures(results); failed > 0)
+        err << fmt::format("aquagraph: {} runs have failed; the tables say which and why\n", failed);
     return success;
 }
 

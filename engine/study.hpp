@@ -21,9 +21,12 @@ struct StudyOptions {
     bool coarse = false, list = false, fresh = false;
 };
 
+// The whole study goes into RESULTS.md beside it, and the table of each case into the README beside its scene, between
+// the markers <!-- begin study NAME/CASE --> and <!-- end study NAME/CASE -->, where it has them.
 // A run that fails is a row that says so. Runs alternate: all of them once, then all of them again. Interrupted, it
 // keeps what is finished and goes on from there when started again. Throws io::SceneError and std::invalid_argument for
-// a bad study, scene or option, std::system_error for files that cannot be written.
+// a bad study, scene or option, std::system_error for files that cannot be written, std::runtime_error for one that
+// has only one marker of two.
 ExitCode study(const io::Study& study, const StudyOptions& options, std::ostream& out, std::ostream& err);
 
 }  // namespace aquagraph::engine

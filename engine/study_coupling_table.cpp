@@ -54,30 +54,13 @@ class CouplingTable {
     }
 
   private:
-    const RunRecord* good(const StudyResult& result) const {
-        for (const RunRecord& record : result.repeats)
-            if (record.failure.empty()) return &record;
-        return nullptr;
-    }
-    double median(const StudyResult& result, double (*value)(const RunRecord&)) const {
-        std::vector<double> values;
-        for (const RunRecord& record : result.repeats)
-            if (record.failure.empty()) values.push_back(value(record));
-        if (values.empty()) return NAN;
-        std::sort(values.begin(), values.end());
-        const std::size_t half = values.size() / 2;
-        return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-    }
-    double wall(const StudyResult& result) const {
-        return median(result, [](const RunRecord& r) { return r.wall_seconds; });
-    }
-    double solid_step(const StudyResult& result) const {
-        return median(result,
-                      [](const RunRecord& r) { return r.solves > 0 ? r.solve_seconds / double(r.solves) : NAN; });
+    static double wall(const StudyResult& result) { return result.median(&RunRecord::wall_seconds); }
+    static double solid_step(const StudyResult& result) {
+        return result.median(
+            [](const RunRecord& r) { return r.solves > 0 ? r.solve_seconds / double(r.solves) : NAN; });
     }
     double fluid_step(const StudyResult& result) const {
-        return median(result,
-                      [](const RunRecord& r) { return r.steps > 0 ? r.other_seconds / double(r.steps) : NAN; }) /
+        return result.median([](const RunRecord& r) { return r.steps > 0 ? r.other_seconds / double(r.steps) : NAN; }) /
                threads_;
     }
     const StudyResult* find(double resolution, const auto& wanted) const {
@@ -88,10 +71,10 @@ class CouplingTable {
 
     std::string row(const StudyResult& result, bool speedup) const {
         const io::StudyVariant& variant = study_.variants[result.run.variant];
-        const RunRecord* record = good(result);
+        const RunRecord* record = result.good();
         const StudyResult* reference =
             find(result.run.resolution, [&](const io::StudyVariant& other) { return other.name == case_.reference; });
-        const RunRecord* right = reference ? good(*reference) : nullptr;
+        const RunRecord* right = reference ? reference->good() : nullptr;
         std::string text = fmt::format("| {} | {:g} |", variant.label, result.run.resolution);
         text += record ? fmt::format(" {} |", record->steps) : " |";
         if (speedup) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/study_report.hpp"
+#include "engine/study_results.hpp"
 
 namespace aquagraph::engine {
 

@@ -35,6 +35,8 @@ constexpr auto keys = std::to_array<SceneKey>({
      "runs of everything, in turn; times are their medians"},
     {"", "time_limit", K::number, false, "s", positive, "", "3600",
      "a run that takes longer is stopped and counts as failed"},
+    {"", "readme", K::texts, false, "", any, "", "all",
+     "names of the variants whose rows go into READMEs too; * stands for anything"},
 
     {"variant", "name", K::text, true, "", any, "", "", "letters, digits and _, beginning with a letter; each once"},
     {"variant", "label", K::text, false, "", any, "", "the name", "for tables and plots"},
@@ -47,7 +49,7 @@ constexpr auto keys = std::to_array<SceneKey>({
 
     {"case", "name", K::text, false, "", any, "", "folder of the scene",
      "letters, digits and _, beginning with a letter; each once"},
-    {"case", "title", K::text, false, "", any, "", "title of the scene", "heading of its table"},
+    {"case", "title", K::text, false, "", any, "", "the name", "heading of its table"},
     {"case", "scene", K::text, true, "", any, "", "", "scene file, seen from the study's folder"},
     {"case", "set", K::texts, false, "", any, "", "none", "overrides for all runs of the case"},
     {"case", "variants", K::texts, false, "", any, "", "all",
@@ -98,6 +100,7 @@ class Reader {
         if (!given) study_.variants.push_back({"as_is", "as it is", {}, "", {}, true});
         for (StudyVariant& variant : study_.variants) variant.base = variant.name;
         for (int i = 0; i < document_.count("axis"); ++i) axis(fmt::format("axis[{}]", i), given || i > 0);
+        study_.readme = variants("readme");
         for (int i = 0; i < document_.count("case"); ++i) one_case(fmt::format("case[{}]", i));
         if (study_.cases.empty() && !complaints_.touch("case"))
             complaints_.add_at({1, 1}, "case", "the study has no [[case]]",
@@ -144,6 +147,27 @@ class Reader {
             }
     }
 
+    // The names of variants that fit the patterns of this key, each once; all where it is not there.
+    std::vector<std::string> variants(const std::string& key) {
+        std::vector<std::string> known, wanted, found;
+        for (const StudyVariant& variant : study_.variants) known.push_back(variant.name);
+        if (!document_.take(key, wanted)) return known;
+        for (std::size_t k = 0; k < wanted.size(); ++k) {
+            bool fits = false;
+            for (const std::string& name : known) {
+                if (!matches(wanted[k], name)) continue;
+                fits = true;
+                if (std::find(found.begin(), found.end(), name) == found.end()) found.push_back(name);
+            }
+            if (fits) continue;
+            const auto guess = nearest(wanted[k], known);
+            complaints_.add(fmt::format("{}[{}]", key, k), fmt::format("there is no variant \"{}\"", wanted[k]),
+                            guess ? fmt::format("did you mean \"{}\"?", *guess)
+                                  : fmt::format("there are {}", fmt::join(known, ", ")));
+        }
+        return found;
+    }
+
     // Where runs are compared with each other.
     void curve(const std::string& at, StudyCase& one) {
         document_.take(at + ".curve", one.curve);
@@ -185,25 +209,7 @@ class Reader {
         resolutions(at + ".resolutions", one.resolutions);
         document_.take(at + ".coarse", one.coarse);
         document_.take(at + ".error", one.error);
-        std::vector<std::string> known;
-        for (const StudyVariant& variant : study_.variants) known.push_back(variant.name);
-        std::vector<std::string> wanted;
-        if (!document_.take(at + ".variants", wanted)) wanted = known;
-        for (std::size_t k = 0; k < wanted.size(); ++k) {
-            const auto before = one.variants.size();
-            for (const std::string& name : known)
-                if (matches(wanted[k], name) &&
-                    std::find(one.variants.begin(), one.variants.end(), name) == one.variants.end())
-                    one.variants.push_back(name);
-            if (one.variants.size() > before || std::any_of(known.begin(), known.end(), [&](const std::string& name) {
-                    return matches(wanted[k], name);
-                }))
-                continue;
-            const auto guess = nearest(wanted[k], known);
-            complaints_.add(fmt::format("{}.variants[{}]", at, k), fmt::format("there is no variant \"{}\"", wanted[k]),
-                            guess ? fmt::format("did you mean \"{}\"?", *guess)
-                                  : fmt::format("there are {}", fmt::join(known, ", ")));
-        }
+        one.variants = variants(at + ".variants");
         curve(at, one);
     }
 

@@ -51,6 +51,7 @@ struct Study {
     double time_limit = 0;  // [s] of a run
     std::vector<StudyAxis> axes;
     std::vector<StudyVariant> variants;  // already multiplied with the axes
+    std::vector<std::string> readme;     // names of those whose rows go into READMEs too
     std::vector<StudyCase> cases;
 };
 

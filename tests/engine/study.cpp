@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "engine/study.hpp"
+#include "engine/study_plots.hpp"
 #include "engine/study_report.hpp"
 #include "io/atomic_file.hpp"
 #include "tests/engine/body_scenes.hpp"
@@ -138,6 +139,52 @@ TEST_CASE("no two of many variants are drawn alike") {
     CHECK(colours.size() == 12);
 }
 
+TEST_CASE("a logarithmic axis has labels where it is drawn") {
+    using Values = std::vector<double>;
+    const auto near = [](const Values& found, const Values& wanted) {
+        REQUIRE(found.size() == wanted.size());
+        for (std::size_t k = 0; k < found.size(); ++k) CHECK(found[k] == doctest::Approx(wanted[k]));
+    };
+    near(engine::logarithmic_tics(0.3, 30), {0.5, 1, 2, 5, 10, 20});
+    near(engine::logarithmic_tics(25, 45), {30, 40});
+    near(engine::logarithmic_tics(0.0118, 0.0132), {0.012, 0.013});
+}
+
+TEST_CASE("a plot keeps its size with many variants: their names stand below it") {
+    if (std::system("gnuplot --version > /dev/null 2>&1") != 0) {
+        MESSAGE("gnuplot is not there");
+        return;
+    }
+    ScratchFolder scratch;
+    const std::filesystem::path folder = scratch / "it's a folder";
+    const auto drawn = [&](std::size_t variants, bool coarse) {
+        io::Study study;
+        study.name = "many";
+        study.cases.resize(1);
+        study.cases[0].name = "gate";
+        std::vector<engine::StudyResult> results;
+        for (std::size_t v = 0; v < variants; ++v) {
+            study.variants.push_back({"v" + std::to_string(v), "cps, p = " + std::to_string(v), {}, "", {}, true});
+            study.cases[0].variants.push_back(study.variants[v].name);
+            engine::StudyResult& result = results.emplace_back();
+            result.run.variant = v;
+            result.repeats.resize(1);
+            result.repeats[0].wall_seconds = 2 + double(v);
+            result.repeats[0].errors = {{"force", "force", 0.1 / double(v + 1)}};
+        }
+        const auto files = engine::draw_plots(study, results, folder, coarse);
+        REQUIRE(files.size() == 1);
+        CHECK(files[0].filename() == (coarse ? "many_gate-coarse.svg" : "many_gate.svg"));
+        CHECK(std::filesystem::exists(folder / "many_gate.gnuplot") == false);
+        return contents(files[0]);
+    };
+    const auto height = [](const std::string& svg) { return std::stoi(svg.substr(svg.find("height=\"") + 8)); };
+    const std::string one = drawn(1, true), many = drawn(18, false);
+    for (int v = 0; v < 18; ++v) CHECK(many.find("cps, p = " + std::to_string(v)) != std::string::npos);
+    CHECK(one.find("cps, p = 0") == std::string::npos);  // nothing to tell apart
+    CHECK(height(many) > height(one) + 50);
+}
+
 TEST_CASE("finished runs are kept until the scene or the study wants something else") {
     Bench bench;
     bench.run(bench.options());
@@ -169,6 +216,40 @@ TEST_CASE("other sections of the file survive") {
     CHECK(lines_with(text, "begin study tiny") == 1);
     bench.folder.write("RESULTS.md", "<!-- begin study tiny -->\nhalf\n");
     CHECK_THROWS_WITH_AS(bench.run(bench.options()), doctest::Contains("end study tiny"), std::runtime_error);
+}
+
+TEST_CASE("the table of a case goes into the README beside its scene, once the whole study has run") {
+    Bench bench(with(matrix, "title = \"Test of studies\"", "title = \"Test of studies\"\nreadme = [\"m*\"]"));
+    const std::string before =
+                          "# Patch\n\nprose\n\n<!-- begin study tiny/patch -->\nold\n<!-- end study tiny/patch -->",
+                      after = "\n\nmore prose\n";
+    const auto readme = [&] { return contents(bench.folder / "patch/README.md"); };
+    bench.folder.write("patch/README.md", before + after);
+    for (const auto& [part, elsewhere] : {std::pair{true, false}, {false, true}}) {
+        auto options = bench.options();
+        options.coarse = part;
+        options.out = bench.folder / (elsewhere ? "other.md" : "RESULTS.md");
+        REQUIRE(bench.run(options) == engine::success);
+        CHECK(readme() == before + after);
+    }
+    REQUIRE(bench.run(bench.options()) == engine::success);
+    const std::string text = readme();
+    CHECK(text.starts_with("# Patch\n\nprose\n"));
+    CHECK(text.ends_with(after));
+    CHECK(text.find("old") == std::string::npos);
+    CHECK(lines_with(text, "| MUSCL |") == 2);
+    CHECK(lines_with(text, "| first |") == 0);
+    CHECK(text.find("all variants and a plot in [RESULTS.md](../RESULTS.md)") != std::string::npos);
+    // The same rows, and the coarse section beside the whole one.
+    const std::string results = bench.results();
+    const std::string row = text.substr(text.find("| MUSCL |"), text.find('\n', text.find("| MUSCL |")));
+    CHECK(results.find(row.substr(0, row.find('\n'))) != std::string::npos);
+    CHECK(lines_with(results, "begin study tiny -->") == 1);
+    CHECK(lines_with(results, "begin study tiny-coarse -->") == 1);
+
+    bench.folder.write("patch/README.md", before.substr(0, before.rfind("<!--")));
+    bench.said.clear();
+    CHECK_THROWS_WITH_AS(bench.run(bench.options()), doctest::Contains("end study tiny/patch"), std::runtime_error);
 }
 
 TEST_CASE("a run that fails is a row that says so") {
@@ -226,6 +307,8 @@ TEST_CASE("mistakes in a study are named with their place") {
           std::string::npos);
     CHECK(refused(with(matrix, "resolutions", "resolution")).find("did you mean `resolutions`") != std::string::npos);
     CHECK(refused(with(matrix, "patch/scene", "batch/scene")).find("tiny.study.toml:10:9") != std::string::npos);
+    CHECK(refused(with(matrix, "schema_version = 1", "schema_version = 1\nreadme = [\"frst\"]"))
+              .find("did you mean \"first\"") != std::string::npos);
     CHECK(refused(matrix + "variants = [\"musl\"]\n").find("did you mean \"muscl\"") != std::string::npos);
     CHECK(refused(with(matrix, "name = \"first\"", "name = \"muscl\"")).find("already taken") != std::string::npos);
     CHECK(refused("schema_version = 1\n").find("no [[case]]") != std::string::npos);

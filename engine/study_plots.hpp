@@ -1,0 +1,25 @@
+// Plots of a study: error against wall time, drawn by gnuplot.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/study_results.hpp"
+
+namespace aquagraph::engine {
+
+// What gnuplot is to draw the k-th curve of a plot with: colour, dashes, points. No two of the first 36 are the same,
+// and the first 12 differ in colour.
+std::string line_style(std::size_t k);
+
+// Values with a label on a logarithmic axis, at least two within [low, high], 0 < low < high: 1, 2, 5 times powers of
+// ten, in between 1, 2, 3, ..., or 1.0, 1.1, 1.2, ... of them.
+std::vector<double> logarithmic_tics(double low, double high);
+
+// One plot for each case of the study, one line per variant, as FOLDER/NAME_CASE.svg, of the coarse study
+// FOLDER/NAME_CASE-coarse.svg. Returns the files; empty for a case with nothing to draw, and for all where gnuplot is
+// not there.
+std::vector<std::filesystem::path> draw_plots(const io::Study& study, const std::vector<StudyResult>& results,
+                                              const std::filesystem::path& folder, bool coarse);
+
+}  // namespace aquagraph::engine
