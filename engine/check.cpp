@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "engine/forecast.hpp"
+#include "engine/wording.hpp"
 #include "io/scheme_text.hpp"
 #include "physics/fluid/rebuild.hpp"
 #include "tasks/executor.hpp"
@@ -16,10 +17,17 @@ namespace aquagraph::engine {
 namespace {
 
 std::string duration(double seconds) {
-    if (seconds < 90) return fmt::format("{:.0f} s", std::max(1.0, seconds));
-    if (seconds < 5400) return fmt::format("{:.0f} min", seconds / 60);
-    if (seconds < 2 * 86400) return fmt::format("{:.1f} h", seconds / 3600);
-    return fmt::format("{:.1f} days", seconds / 86400);
+    constexpr double day = 86400, year = 365.25 * day;
+    if (seconds < 90) return fmt::format("about {:.0f} s", std::max(1.0, seconds));
+    if (seconds < 5400) return fmt::format("about {:.0f} min", seconds / 60);
+    if (seconds < 2 * day) return fmt::format("about {:.1f} h", seconds / 3600);
+    if (seconds < 2 * year) return fmt::format("about {:.1f} days", seconds / day);
+    return seconds < 1000 * year ? fmt::format("about {:.0f} years", seconds / year) : "more than a thousand years";
+}
+
+// Up to a million all digits; beyond that they say nothing.
+std::string steps_text(double steps) {
+    return steps < 1e6 ? fmt::format("{:.0f}", steps) : fmt::format("{:.3g}", steps);
 }
 
 const char* load_text(coupling::LoadMethod load) {
@@ -63,8 +71,8 @@ void print_solid(std::ostream& out, const io::Scene& scene, const solid::Mesh<D>
 
 void print_run_time(std::ostream& out, const Forecast& made, int threads, const std::string& remark) {
     if (made.no_solid_step.empty())
-        out << fmt::format("run time   about {} on {} threads of this machine{}\n", duration(made.seconds), threads,
-                           remark);
+        out << fmt::format("run time   {} on {} of this machine{}\n", duration(made.seconds),
+                           counted(threads, "thread"), remark);
     else
         out << "run time   unknown: " << made.no_solid_step << "\n";
 }
@@ -73,8 +81,8 @@ template <int D>
 void check_structure(const io::Scene& scene, Model<D>& model, tasks::Executor& executor, std::ostream& out) {
     print_solid(out, scene, model.solid->mesh());
     const Forecast made = forecast(scene, model, executor);
-    out << fmt::format("loads      {} besides gravity\ntime       {:g} s in {:.0f} steps of {:.3g} s\n",
-                       model.structure->loads.size(), scene.end_time, made.steps, made.step);
+    out << fmt::format("loads      {} besides gravity\ntime       {:g} s in {} steps of {:.3g} s\n",
+                       model.structure->loads.size(), scene.end_time, steps_text(made.steps), made.step);
     print_run_time(out, made, executor.threads(), ", without what is written");
 }
 
@@ -110,7 +118,7 @@ void check_fluid(const io::Scene& scene, Model<D>& model, tasks::Executor& execu
                                                          : "iterated until both agree",
                            scene.coupling.ratio_control ? "up to" : "=", scene.coupling.ratio,
                            load_text(scene.coupling.load), model.interface->surface.vertices());
-    out << fmt::format("time       {:g} s in about {:.0f} steps of {:.3g} s ({})\n", scene.end_time, made.steps,
+    out << fmt::format("time       {:g} s in about {} steps of {:.3g} s ({})\n", scene.end_time, steps_text(made.steps),
                        made.step, made.limiter);
     out << fmt::format("memory     {:.1f} MB, {:.0f} bytes per particle\n", bytes_per_particle(fluid) * n / 1e6,
                        bytes_per_particle(fluid));
@@ -123,6 +131,7 @@ void check_in(const io::Scene& scene, int threads, std::ostream& out) {
     tasks::Executor executor(threads);
     const std::unique_ptr<Model<D>> model = make_model<D>(scene);
     out << scene.title << "\n";
+    if (!scene.overrides.empty()) out << fmt::format("changed    {}\n", fmt::join(scene.overrides, ", "));
     if (model->structure) check_structure(scene, *model, executor, out);
     if (model->fluid) check_fluid(scene, *model, executor, out);
 }

@@ -1,9 +1,14 @@
 // The command line.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <string>
 #include <utility>
 
 #include "engine/calculix_command.hpp"
@@ -15,6 +20,7 @@
 #include "engine/trace_summary.hpp"
 #include "engine/version.hpp"
 #include "io/scene_reader.hpp"
+#include "io/suggestion.hpp"
 
 namespace {
 
@@ -146,6 +152,19 @@ Command study(CLI::App& app) {
     return {&command, [=] { return engine::study(io::read_study(*file), *options, std::cout, std::cerr); }};
 }
 
+// What is wrong with the word where a command belongs; empty: nothing.
+std::string wrong_command(const std::vector<Command>& commands, int argc, char** argv) {
+    const std::string word = argc > 1 ? argv[1] : "";
+    std::vector<std::string> known;
+    for (const auto& [command, action] : commands) known.push_back(command->get_name());
+    if (word.starts_with('-') || std::find(known.begin(), known.end(), word) != known.end()) return {};
+    const std::string all = fmt::format("{}; --help says what they do", fmt::join(known, ", "));
+    if (word.empty()) return "give a command: " + all;
+    const auto guess = io::nearest(word, known);
+    return fmt::format("there is no command \"{}\": {}", word,
+                       guess ? fmt::format("did you mean \"{}\"?", *guess) : "there are " + all);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -154,6 +173,10 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     std::vector<Command> commands;
     for (const auto& add : {run, check, graph, modes, export_ccx, trace_summary, study}) commands.push_back(add(app));
+    if (const std::string wrong = wrong_command(commands, argc, argv); !wrong.empty()) {
+        std::cerr << "aquagraph: " << wrong << "\n";
+        return engine::bad_input;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -27,7 +27,7 @@ void remove_old_modes(const std::filesystem::path& folder) {
 template <int D>
 void write_modes(const std::filesystem::path& folder, const solid::Solver<D>& solver,
                  const std::vector<solid::NaturalMode>& modes) {
-    std::filesystem::create_directories(folder);
+    io::make_folder(folder);
     remove_old_modes(folder);
     std::string table =
         "mode,frequency[Hz],eigenvalue[1/s2],mass_x,mass_y" + std::string(D == 3 ? ",mass_z" : "") + "\n";

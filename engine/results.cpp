@@ -12,6 +12,7 @@
 #include "engine/frames.hpp"
 #include "engine/restart_point.hpp"
 #include "engine/wall_parts.hpp"
+#include "io/atomic_file.hpp"
 #include "io/scene_formulas.hpp"
 #include "io/scene_reader.hpp"
 #include "io/summary.hpp"
@@ -100,7 +101,7 @@ Results<D>::Results(const io::Scene& scene, Model<D>& model, std::filesystem::pa
       measured_at_(diagnostics_.size(), -1),
       columns_(columns_of(scene, parts_, diagnostics_)),
       folder_(std::move(folder)),
-      fluid_series_((std::filesystem::create_directories(folder_), folder_ / "fluid.hdf.series")),
+      fluid_series_((io::make_folder(folder_), folder_ / "fluid.hdf.series")),
       solid_series_(folder_ / "solid.hdf.series"),
       flow_(scene.fluid ? scene.fluid->spacing : 1.0) {
     if (model.solid) boundary_ = solid::boundary_facets(model.solid->mesh());

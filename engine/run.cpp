@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "engine/checkpoints.hpp"
 #include "engine/cycle_graphs.hpp"
@@ -17,6 +18,7 @@
 #include "engine/results.hpp"
 #include "engine/stop_request.hpp"
 #include "engine/trace_summary.hpp"
+#include "engine/wording.hpp"
 #include "io/progress.hpp"
 #include "tasks/executor.hpp"
 #include "tasks/trace.hpp"
@@ -86,119 +88,164 @@ ExitCode exit_code(const RunEnd& end, StopRequest request, long steps, const std
     }
 }
 
-template <int D>
-ExitCode run_in(const io::Scene& scene, const RunOptions& options, std::ostream& out, std::ostream& err) {
-    const std::filesystem::path folder =
-        options.folder.empty() ? std::filesystem::path("results") / scene.name : options.folder;
-    tasks::Executor executor(options.threads);
-    std::optional<tasks::Trace> trace;
-    if (!options.trace.empty()) {
-        trace.emplace(tasks::Trace::Options{.events_per_thread = trace_events_per_thread});
-        if (!std::ofstream(options.trace))  // known now rather than after the run
-            throw std::system_error(errno, std::generic_category(), "cannot write " + options.trace.string());
-    }
-
-    std::optional<RestartPoint> from = find_restart_point(scene, folder, options.restart, err);
-    const std::unique_ptr<Model<D>> model = make_model<D>(scene);
-    Results<D> results(scene, *model, folder, from.has_value());
-    Checkpoints<D> checkpoints(scene, *model, results,
-                               options.checkpoint_every.value_or(scene.output.checkpoint_interval), from);
-    CycleGraphs<D> graphs(*model, scene, results, executor, trace ? &*trace : nullptr);
-
-    RunFigures before;
-    if (from) {
-        executor.execute([&] { before = checkpoints.restore(*from); });
-        ++before.restarts;
-        from->state = {};
-    }
-    const StopSignals signals;
-    const auto begin = std::chrono::steady_clock::now();
-    const auto seconds = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    };
-    const auto figures = [&] {
-        return RunFigures{before.wall_seconds + seconds(), executor.threads(), together(before.passes, graphs.passes()),
-                          before.restarts};
-    };
-    io::RunOutcome outcome = io::RunOutcome::finished;
-    std::string message;
-    std::optional<io::Progress> progress;
-    if (!options.quiet)
-        progress.emplace(out, &out == &std::cout && io::Progress::is_terminal(STDOUT_FILENO), scene.end_time,
-                         model->clock.time);
-    Clock& clock = model->clock;
-    try {
-        if (!from) {
-            executor.execute([&] {
-                start(*model, scene);
-                for (const tasks::Task& task : first_evaluation(*model)) task.body();
-                results.measure();
-            });
-            results.history_if_due();
-            results.frame_if_due();
-        }
-        while (clock.time < clock.end * (1 - 1e-12)) {
-            if (signals.request() != StopRequest::none) {
-                outcome = io::RunOutcome::interrupted;
-                message = fmt::format("{} at t = {:.6g} s of {:.6g} s",
-                                      signals.request() == StopRequest::checkpoint ? "stopped" : "interrupted",
-                                      clock.time, clock.end);
-                checkpoints.write(figures());  // before anything is measured that an uninterrupted run would not
-                executor.execute([&] { results.measure(); });
-                break;
-            }
-            graphs.run();
-            if (checkpoints.is_due() && clock.time < clock.end) checkpoints.write(figures());
-            if (progress) progress->update({clock.time, clock.steps, clock.step, clock.limiter});
-        }
-    } catch (const tasks::TaskError& error) {
-        outcome = io::RunOutcome::failed;
-        message = describe(*model, error);
-    } catch (const solid::SolverError& error) {
-        outcome = io::RunOutcome::failed;
-        message = error.what();
-    } catch (const std::system_error& error) {
-        outcome = io::RunOutcome::failed;
-        message = fmt::format("{} (t = {:.6g} s, step {}); the checkpoint before, if there is one, is untouched",
-                              error.what(), clock.time, clock.steps);
-    }
-    if (progress) progress->finish();
-
-    const RunEnd end{outcome, message, figures()};
-    std::vector<io::Comparison> comparisons;
-    try {
-        if (outcome != io::RunOutcome::finished) {
-            results.write_history_row();
-            results.write_frame();
-        }
-        comparisons = results.finish(end);
-        if (trace) {
-            trace->write(options.trace.string());
-            if (trace->dropped_count() > 0)
-                err << fmt::format("aquagraph: the trace was full and lacks its last {} events; trace a shorter run\n",
-                                   trace->dropped_count());
-        }
-    } catch (const std::exception& error) {  // a full disk: what had been written before is there
-        if (!message.empty()) err << "aquagraph: " << message << "\n";
-        err << "aquagraph: the end of the run could not be written: " << error.what() << "\n"
-            << "What was written before is in " << folder.string() << "\n";
-        return run_failed;
-    }
-
-    if (!options.quiet) {
-        print_table(out, end.figures);
-        print_comparisons(out, comparisons);
-        if (trace) print(summarise_trace(options.trace), out);
-        out << fmt::format("{} steps in {:.2f} s on {} threads; results in {}\n", clock.steps, end.figures.wall_seconds,
-                           end.figures.threads, folder.string());
-    }
-    return exit_code(end, signals.request(), clock.steps, folder, err);
+// The file is made at once: one that cannot be written is known before the run rather than after it.
+std::optional<tasks::Trace> trace_into(const std::filesystem::path& file) {
+    if (file.empty()) return std::nullopt;
+    if (!std::ofstream(file)) throw std::system_error(errno, std::generic_category(), "cannot write " + file.string());
+    return std::optional<tasks::Trace>(std::in_place,
+                                       tasks::Trace::Options{.events_per_thread = trace_events_per_thread});
 }
+
+// A run from its start or from a checkpoint to its end.
+template <int D>
+class Run {
+  public:
+    // Finds out what cannot be computed, read or written before anything is computed.
+    Run(const io::Scene& scene, const RunOptions& options, std::ostream& out, std::ostream& err)
+        : scene_(scene),
+          options_(options),
+          out_(out),
+          err_(err),
+          folder_(options.folder.empty() ? std::filesystem::path("results") / scene.name : options.folder),
+          executor_(options.threads),
+          trace_(trace_into(options.trace)),
+          from_(find_restart_point(scene, folder_, options.restart, err)),
+          model_(make_model<D>(scene)),
+          results_(scene, *model_, folder_, from_.has_value()),
+          checkpoints_(scene, *model_, results_, options.checkpoint_every.value_or(scene.output.checkpoint_interval),
+                       from_),
+          graphs_(*model_, scene, results_, executor_, trace_ ? &*trace_ : nullptr) {}
+
+    ExitCode whole() {
+        if (from_) restore();
+        const StopSignals signals;
+        begin_ = std::chrono::steady_clock::now();
+        const RunEnd end = computed(signals);
+        std::vector<io::Comparison> comparisons;
+        try {
+            comparisons = write_end(end);
+        } catch (const std::exception& error) {  // a full disk: what had been written before is there
+            if (!end.message.empty()) err_ << "aquagraph: " << end.message << "\n";
+            err_ << "aquagraph: the end of the run could not be written: " << error.what() << "\n"
+                 << "What was written before is in " << folder_.string() << "\n";
+            return run_failed;
+        }
+        if (!options_.quiet) print_end(end, comparisons);
+        return exit_code(end, signals.request(), model_->clock.steps, folder_, err_);
+    }
+
+  private:
+    void restore() {
+        executor_.execute([&] { before_ = checkpoints_.restore(*from_); });
+        ++before_.restarts;
+        from_->state = {};
+    }
+
+    // Cycle by cycle to the end, to a request to stop, or to the first thing that goes wrong.
+    RunEnd computed(const StopSignals& signals) {
+        const Clock& clock = model_->clock;
+        std::optional<io::Progress> progress;
+        if (!options_.quiet)
+            progress.emplace(out_, &out_ == &std::cout && io::Progress::is_terminal(STDOUT_FILENO), scene_.end_time,
+                             clock.time);
+        RunEnd end;
+        const auto fails = [&end](std::string message) {
+            end.outcome = io::RunOutcome::failed;
+            end.message = std::move(message);
+        };
+        try {
+            if (!from_) start_from_nothing();
+            while (clock.time < clock.end * (1 - 1e-12)) {
+                if (signals.request() != StopRequest::none) {
+                    end.outcome = io::RunOutcome::interrupted;
+                    end.message = fmt::format("{} at t = {:.6g} s of {:.6g} s",
+                                              signals.request() == StopRequest::checkpoint ? "stopped" : "interrupted",
+                                              clock.time, clock.end);
+                    leave_checkpoint();
+                    break;
+                }
+                graphs_.run();
+                if (checkpoints_.is_due() && clock.time < clock.end) checkpoints_.write(figures());
+                if (progress) progress->update({clock.time, clock.steps, clock.step, clock.limiter});
+            }
+        } catch (const tasks::TaskError& error) {
+            fails(describe(*model_, error));
+        } catch (const solid::SolverError& error) {
+            fails(error.what());
+        } catch (const std::system_error& error) {
+            fails(fmt::format("{} (t = {:.6g} s, step {}); the checkpoint before, if there is one, is untouched",
+                              error.what(), clock.time, clock.steps));
+        }
+        if (progress) progress->finish();
+        end.figures = figures();
+        return end;
+    }
+
+    void start_from_nothing() {
+        executor_.execute([&] {
+            start(*model_, scene_);
+            for (const tasks::Task& task : first_evaluation(*model_)) task.body();
+            results_.measure();
+        });
+        results_.history_if_due();
+        results_.frame_if_due();
+    }
+
+    // Before anything is measured that an uninterrupted run would not measure.
+    void leave_checkpoint() {
+        checkpoints_.write(figures());
+        executor_.execute([&] { results_.measure(); });
+    }
+
+    // Of all parts of the run together.
+    RunFigures figures() const {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+        return {before_.wall_seconds + seconds, executor_.threads(), together(before_.passes, graphs_.passes()),
+                before_.restarts};
+    }
+
+    std::vector<io::Comparison> write_end(const RunEnd& end) {
+        if (end.outcome != io::RunOutcome::finished) {
+            results_.write_history_row();
+            results_.write_frame();
+        }
+        std::vector<io::Comparison> comparisons = results_.finish(end);
+        if (trace_) {
+            trace_->write(options_.trace.string());
+            if (trace_->dropped_count() > 0)
+                err_ << fmt::format("aquagraph: the trace was full and lacks its last {} events; trace a shorter run\n",
+                                    trace_->dropped_count());
+        }
+        return comparisons;
+    }
+
+    void print_end(const RunEnd& end, const std::vector<io::Comparison>& comparisons) {
+        print_table(out_, end.figures);
+        print_comparisons(out_, comparisons);
+        if (trace_) print(summarise_trace(options_.trace), out_);
+        out_ << fmt::format("{} in {:.2f} s on {}; results in {}\n", counted(model_->clock.steps, "step"),
+                            end.figures.wall_seconds, counted(end.figures.threads, "thread"), folder_.string());
+    }
+
+    const io::Scene& scene_;
+    const RunOptions& options_;
+    std::ostream &out_, &err_;
+    const std::filesystem::path folder_;
+    tasks::Executor executor_;
+    std::optional<tasks::Trace> trace_;
+    std::optional<RestartPoint> from_;
+    const std::unique_ptr<Model<D>> model_;
+    Results<D> results_;
+    Checkpoints<D> checkpoints_;
+    CycleGraphs<D> graphs_;
+    RunFigures before_;  // of the parts before this one
+    std::chrono::steady_clock::time_point begin_;
+};
 
 }  // namespace
 
 ExitCode run(const io::Scene& scene, const RunOptions& options, std::ostream& out, std::ostream& err) {
-    return scene.dimension == 3 ? run_in<3>(scene, options, out, err) : run_in<2>(scene, options, out, err);
+    return scene.dimension == 3 ? Run<3>(scene, options, out, err).whole() : Run<2>(scene, options, out, err).whole();
 }
 
 }  // namespace aquagraph::engine

@@ -157,7 +157,7 @@ std::vector<std::filesystem::path> draw_plots(const io::Study& study, const std:
                                               const std::filesystem::path& folder, bool coarse) {
     std::vector<std::filesystem::path> files(study.cases.size());
     if (!gnuplot("--version")) return files;
-    std::filesystem::create_directories(folder);
+    io::make_folder(folder);
     for (std::size_t c = 0; c < study.cases.size(); ++c) {
         const CasePlot plot(study, c, results);
         if (plot.empty()) continue;

@@ -10,6 +10,7 @@
 
 #include "engine/study_coupling_table.hpp"
 #include "engine/version.hpp"
+#include "engine/wording.hpp"
 #include "io/atomic_file.hpp"
 
 namespace aquagraph::engine {
@@ -114,9 +115,9 @@ class CaseTable {
 std::string written_by(const io::Study& study, const std::vector<StudyResult>& results, int threads, bool coarse) {
     std::size_t repeats = 0;
     for (const StudyResult& result : results) repeats = std::max(repeats, result.repeats.size());
-    return fmt::format("Written by `./aquagraph study {}{}`, version {}, {} thread{}, {}.",
+    return fmt::format("Written by `./aquagraph study {}{}`, version {}, {}, {}.",
                        (study.file.parent_path().filename() / study.file.filename()).string(),
-                       coarse ? " --coarse" : "", version, threads, threads == 1 ? "" : "s",
+                       coarse ? " --coarse" : "", version, counted(threads, "thread"),
                        repeats > 1 ? fmt::format("medians of {} runs in turn", repeats) : "one run each");
 }
 

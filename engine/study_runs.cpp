@@ -153,7 +153,7 @@ std::vector<StudyRun> runs_of(const io::Study& study, bool coarse, const std::ve
 
 std::optional<RunRecord> make_run(const io::Study& study, const StudyRun& run, const std::filesystem::path& program,
                                   int threads, const std::filesystem::path& folder, const std::function<bool()>& stop) {
-    std::filesystem::create_directories(folder);
+    io::make_folder(folder);
     std::vector<std::string> arguments{"run", study.cases[run.study_case].scene.string(), "--quiet", "--out",
                                        folder.string()};
     for (const std::string& override : run.overrides) arguments.insert(arguments.end(), {"--set", override});
@@ -216,7 +216,7 @@ std::optional<RunRecord> kept_run(const std::filesystem::path& folder, const Stu
 }
 
 void keep_run(const std::filesystem::path& folder, const StudyRun& run, int repeat, const RunRecord& record) {
-    std::filesystem::create_directories(folder);
+    io::make_folder(folder);
     nlohmann::json json = {{"set", run.overrides},
                            {"failure", record.failure},
                            {"wall_seconds", record.wall_seconds},

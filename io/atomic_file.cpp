@@ -69,6 +69,12 @@ void write_file_durably(const std::filesystem::path& file, std::span<const std::
     }
 }
 
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code wrong;
+    std::filesystem::create_directories(folder, wrong);
+    if (wrong) throw std::system_error(wrong, "the folder " + folder.string() + " cannot be made");
+}
+
 std::string read_file(const std::filesystem::path& file) {
     Stream stream(std::fopen(file.c_str(), "rb"));
     if (!stream) fail(file, "cannot be read");

@@ -12,6 +12,8 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 // The same of several pieces, one after the other, and it is on the disk when it returns: a power cut leaves the old
 // file or the new one. Slower: it waits for the disk.
 void write_file_durably(const std::filesystem::path& file, std::span<const std::string_view> pieces);
+// With the folders above it, where they are not there. Throws std::system_error naming it.
+void make_folder(const std::filesystem::path& folder);
 std::string read_file(const std::filesystem::path& file);
 
 // The name under which `file` is written until it is complete; in the same folder.

@@ -20,6 +20,13 @@ std::string seconds(double time) {
     return fmt::format("{:.4g} s", time);
 }
 
+// What the command line has changed: the title is the file's and does not know of it.
+std::string changes(const Scene& scene) {
+    if (scene.overrides.empty()) return {};
+    return fmt::format("<p class=\"sub\">changed: {}</p>",
+                       html_escaped(fmt::format("{}", fmt::join(scene.overrides, ", "))));
+}
+
 std::string banner(const Scene& scene, const Report& report) {
     if (report.outcome == RunOutcome::finished) return {};
     const bool failed = report.outcome == RunOutcome::failed;
@@ -74,8 +81,9 @@ void write_report(const std::filesystem::path& file, const Scene& scene, const R
         "content=\"light dark\">\n";
     page += fmt::format("<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n", html_escaped(scene.title),
                         assets::style_css);
-    page += fmt::format("<header><h1>{}</h1><p class=\"sub\">{} · t = {} · computed by aquagraph</p></header>\n",
-                        html_escaped(scene.title), html_escaped(scene.name), seconds(report.reached_time));
+    page +=
+        fmt::format("<header><h1>{}</h1><p class=\"sub\">{} · t = {} · computed by aquagraph</p>{}</header>\n",
+                    html_escaped(scene.title), html_escaped(scene.name), seconds(report.reached_time), changes(scene));
     page += banner(scene, report);
     page += key_number_cards(report, comparisons);
     page += section(scene.fluid ? "Flow" : "Motion", player_html(flow_data));

@@ -86,7 +86,7 @@ TEST_CASE("check prints what is foretold, and says why it cannot") {
     CAPTURE(coupled);
     CHECK(coupled.find("560 particles of 0.005 m") != std::string::npos);
     CHECK(coupled.find("10 quadrilaterals of 8 nodes") != std::string::npos);
-    CHECK(coupled.find("run time   about 1 s on 1 threads") != std::string::npos);
+    CHECK(coupled.find("run time   about 1 s on 1 thread of") != std::string::npos);
     CHECK(coupled.find("for each iteration") == std::string::npos);
     CHECK(
         said(with(gate, "algorithm = \"cps\"", "algorithm = \"iterated\"")).find(" for each iteration of its cycles") !=
@@ -96,6 +96,12 @@ TEST_CASE("check prints what is foretold, and says why it cannot") {
     CAPTURE(longer);
     CHECK(longer.find("run time   about 1 s") == std::string::npos);
     CHECK((longer.find(" min on ") != std::string::npos || longer.find(" h on ") != std::string::npos));
+    // Nothing that could be run is still said in a few words.
+    const std::string absurd = said(with(gate, "end = 0.02", "end = 1e300"));
+    CAPTURE(absurd);
+    CHECK(absurd.find("run time   more than a thousand years") != std::string::npos);
+    CHECK(absurd.find("e+30") != std::string::npos);
+    CHECK(absurd.size() < 900);
     // No equilibrium: the plate is held nowhere but at a point, and its weight turns it.
     std::string loose = with(plate, "[[solid.clamp]]\nset = \"right\"\n", "");
     loose = with(loose, "[[solid.clamp]]\nset = \"left\"\n", "[[solid.clamp]]\nset = \"left\"\nfixed = [\"x\"]\n");

@@ -118,6 +118,20 @@ TEST_CASE("the report holds what it was given and loads nothing") {
     }
 }
 
+TEST_CASE("under its title the report says what the command line has changed") {
+    ScratchFolder folder;
+    MadeUpRun run;
+    const auto head = [&] {
+        io::write_report(folder / "report.html", run.scene, run.report, run.history, run.comparisons, run.flow);
+        const std::string page = read(folder / "report.html");
+        return page.substr(page.find("<header>"), page.find("</header>") - page.find("<header>"));
+    };
+    run.scene.overrides.clear();
+    CHECK(head().find("changed") == std::string::npos);
+    run.scene.overrides = {"fluid.spacing=0.003", "title=a < b"};
+    CHECK(head().find("changed: fluid.spacing=0.003, title=a &lt; b</p>") != std::string::npos);
+}
+
 TEST_CASE("an interrupted and a failed run say so at the top") {
     ScratchFolder folder;
     MadeUpRun run;

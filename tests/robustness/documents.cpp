@@ -138,3 +138,16 @@ TEST_CASE("commands in documents are those of the program, with scenes, override
         CHECK(!runs.empty());
     }
 }
+
+TEST_CASE("the launcher passes on every command of the program") {
+    const std::string launcher = contents(root / "aquagraph"), all = Call({}).err;
+    std::smatch listed;
+    REQUIRE(std::regex_search(all, listed, std::regex("give a command: ([^;]*);")));
+    std::istringstream names(std::regex_replace(listed.str(1), std::regex(","), " "));
+    int commands = 0;
+    for (std::string name; names >> name; ++commands) {
+        CAPTURE(name);
+        CHECK(std::regex_search(launcher, std::regex(R"(\n-\*[^\n]* \| )" + name + R"([ )])")));
+    }
+    CHECK(commands >= 7);
+}

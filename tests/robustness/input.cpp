@@ -86,6 +86,13 @@ TEST_CASE("a command line that makes no sense is refused") {
     }
 }
 
+TEST_CASE("a command that is not there is named, with the one that may be meant") {
+    CHECK(Call({"rnu", "SCENE"}, column).err == "aquagraph: there is no command \"rnu\": did you mean \"run\"?\n");
+    const Call swim({"swim"}), none({});
+    CHECK(swim.err.starts_with("aquagraph: there is no command \"swim\": there are run, check, "));
+    CHECK(none.err.starts_with("aquagraph: give a command: run, check, "));
+}
+
 TEST_CASE("help and version are no errors") {
     const Call help({"run", "--help"}), version({"--version"});
     CHECK(help.code == 0);
@@ -100,7 +107,7 @@ TEST_CASE("a folder that cannot be written is found out before anything is compu
     const std::string hours = with(with(column, "spacing = 0.02", "spacing = 0.002"), "end = 0.1", "end = 100.0");
     const Call call({"run", "SCENE", "--out", "FOLDER/scene.toml/results"}, hours);
     check_refused(call);
-    CHECK(call.err.find("scene.toml/results") != std::string::npos);
+    CHECK(call.err.find("scene.toml/results cannot be made: Not a directory") != std::string::npos);
     CHECK(count(call.err, "\n") == 1);
 }
 
