@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "engine/forecast.hpp"
+#include "engine/staggering.hpp"
 #include "engine/wording.hpp"
 #include "io/scheme_text.hpp"
 #include "physics/fluid/rebuild.hpp"
@@ -96,6 +97,9 @@ void check_fluid(const io::Scene& scene, Model<D>& model, tasks::Executor& execu
             rebuild_lists(fluid, model.walls ? &*model.walls : nullptr, tasks::parallel_loop);
     });
     const double n = double(std::max<std::size_t>(1, fluid.particles.count));
+    std::optional<Staggering> staggering;
+    if constexpr (D == 2)
+        if (model.interface) staggering = forecast_staggering(scene, model, present_step(scene, model));
     const Forecast made = forecast(scene, model, executor);
     out << fmt::format("fluid      {}; {} particles of {:.4g} m, R/Δx {:g}, {:.0f} neighbours\n",
                        io::scheme_text(*scene.fluid), fluid.particles.count, fluid.spacing, scene.fluid->support_ratio,
@@ -118,6 +122,7 @@ void check_fluid(const io::Scene& scene, Model<D>& model, tasks::Executor& execu
                                                          : "iterated until both agree",
                            scene.coupling.ratio_control ? "up to" : "=", scene.coupling.ratio,
                            load_text(scene.coupling.load), model.interface->surface.vertices());
+    if (staggering) out << "stability  " << text_of(*staggering) << "\n";
     out << fmt::format("time       {:g} s in about {} steps of {:.3g} s ({})\n", scene.end_time, steps_text(made.steps),
                        made.step, made.limiter);
     out << fmt::format("memory     {:.1f} MB, {:.0f} bytes per particle\n", bytes_per_particle(fluid) * n / 1e6,

@@ -16,6 +16,7 @@
 #include "engine/diagnosis.hpp"
 #include "engine/listings.hpp"
 #include "engine/results.hpp"
+#include "engine/staggering.hpp"
 #include "engine/stop_request.hpp"
 #include "engine/trace_summary.hpp"
 #include "engine/wording.hpp"
@@ -189,6 +190,15 @@ class Run {
         });
         results_.history_if_due();
         results_.frame_if_due();
+        if constexpr (D == 2) warn_of_staggering();
+    }
+
+    void warn_of_staggering() requires(D == 2) {
+        if (!model_->interface) return;
+        const auto staggering = forecast_staggering(scene_, *model_, present_step(scene_, *model_));
+        if (!staggering) return;
+        const std::string warning = warning_of(*staggering, scene_);
+        if (!warning.empty()) err_ << "aquagraph: warning: " << warning << "\n";
     }
 
     // Before anything is measured that an uninterrupted run would not measure.

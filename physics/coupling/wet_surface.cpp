@@ -127,6 +127,23 @@ double WetSurface::largest_distance(const std::vector<Vec2>& from, double ahead)
     return std::sqrt(largest2);
 }
 
+double WetSurface::squared_normal_motion(const fluid::Panels<2>& panels, const std::vector<bool>& in_contact,
+                                         std::span<const double> nodal) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        if (panels.panels[k].wall != wall_ || !in_contact[k]) continue;
+        std::array<double, 2> along_normal;
+        for (std::size_t end = 0; end < 2; ++end) {
+            const std::size_t vertex = std::size_t(panels.panels[k].vertex[end]) - first_vertex_,
+                              n = 2 * std::size_t(nodes_[vertex]);
+            along_normal[end] = Vec2(nodal[n], nodal[n + 1]).dot(panels.normal[k]);
+        }
+        const auto [a, b] = along_normal;
+        sum += panels.measure[k] / 3 * (a * a + a * b + b * b);
+    }
+    return sum;
+}
+
 void WetSurface::to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) const {
     std::fill(nodal_forces.begin(), nodal_forces.end(), 0.0);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {

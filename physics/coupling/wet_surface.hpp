@@ -58,6 +58,10 @@ class WetSurface {
     void place(fluid::Panels<2>& panels, double ahead) const;
     // How far vertices will then be from these places of all vertices of the panels [m].
     double largest_distance(const std::vector<Vec2>& from, double ahead) const;
+    // ∫ (φ·n)² over those of its panels that are in contact with water (one entry per panel of `panels`), φ given at
+    // the body's nodes, interleaved [m × the square of φ's unit].
+    double squared_normal_motion(const fluid::Panels<2>& panels, const std::vector<bool>& in_contact,
+                                 std::span<const double> nodal) const;
     // Adds the forces on vertices (one per vertex of `panels`) to nodal forces, interleaved; clears them first.
     void to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) const;
 

@@ -40,6 +40,7 @@ std::vector<NaturalMode> Solver<D>::natural_modes(int count, BlockLoop loop) {
         for (const double x : mode.shape)
             if (std::abs(x) > std::abs(largest)) largest = x;
         for (double& x : mode.shape) x /= largest;
+        mode.mass = 1 / (largest * largest);
     }
     return modes;
 }

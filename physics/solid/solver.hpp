@@ -31,6 +31,7 @@ struct NaturalMode {
     double eigenvalue = 0;                  // ω² [1/s²]; negative where the state is unstable
     double frequency = 0;                   // ω/2π [Hz]; negative: of √-ω², growing instead of swinging
     std::vector<double> shape;              // D × nodes, largest component 1
+    double mass = 0;                        // φᵀM φ with this shape [kg]
     std::array<double, 3> mass_fraction{};  // of the whole mass that moves along x, y (and z): effective modal mass
 };
 
@@ -98,7 +99,8 @@ class Solver final : public Structure<D> {
     Statistics statistics() const override;
     double mass() const;  // [kg]
     // Infinite for the implicit schemes, which are unconditionally stable. Explicit: 0.9 × 2/ω_max about the state
-    // where it was first asked for, or a static solve's end [s].
+    // where it was first asked for, or a static solve's end, and renewed when asked for a hundred steps later, where it
+    // has come to differ by more than 2 % [s].
     double largest_stable_step() const override;
 
     // Von Mises equivalent of the Cauchy stress, mean of an element's Gauss points [Pa]. von_mises: one per element.
