@@ -176,8 +176,14 @@ class Listing {
     }
 
     tasks::IteratedParts iterated_parts() requires(D == 2) {
-        return {*model_.fluid,     *model_.walls,     moving(),    model_.wall_works,
-                solver_of(model_), *model_.interface, model_.clock};
+        return {*model_.fluid,
+                model_.walls ? &*model_.walls : nullptr,
+                model_.flux_walls ? &*model_.flux_walls : nullptr,
+                moving(),
+                model_.wall_works,
+                solver_of(model_),
+                *model_.interface,
+                model_.clock};
     }
 
     std::vector<Task> take() { return std::move(tasks_); }

@@ -148,11 +148,6 @@ class Validation {
         if (!scene_.fluid || scene_.fluid->walls != WallMethod::normal_flux || complaints_.touch("fluid.walls")) return;
         const FluidScene& fluid = *scene_.fluid;
         const std::string help = "take [fluid] walls = \"ghosts\"";
-        if (scene_.solid && scene_.coupling.algorithm == CouplingAlgorithm::iterated)
-            complaints_.add("fluid.walls",
-                            "the iterated algorithm cannot go back to the start of a cycle with walls of "
-                            "normal fluxes",
-                            help + ", or choose another [coupling] algorithm");
         // δ-SPH and artificial viscosity have no Riemann problem to put at the wall; without its damping still water
         // does not stay still. ALE exchanges mass, which the walls do not follow.
         if (fluid.scheme.name != fluid::Scheme::riemann)

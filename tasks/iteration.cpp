@@ -20,6 +20,7 @@ Task begin_iterations(const IteratedParts& parts, CycleStart& start) {
                 }
                 parts.solid.save(start.solid);
                 start.borne_loads = parts.interface.borne_loads;
+                if (parts.flux_walls) start.floor_count = parts.flux_walls->floor_count;
                 coupling::WetSurface& surface = parts.interface.surface;
                 surface.state(start.y, parts.clock.cycle);
                 surface.extrapolated(start.guess, parts.clock.cycle);
@@ -41,12 +42,22 @@ Task back_to_start(const IteratedParts& parts, CycleStart& start) {
                 }
                 parts.solid.restore(start.solid);
                 parts.interface.borne_loads = start.borne_loads;
-                if (parts.moving) parts.moving->place(parts.walls.panels, parts.clock.time);
-                parts.interface.surface.place(parts.walls.panels, parts.clock.elapsed);
+                fluid::Panels<2>& panels = parts.panels();
+                if (parts.moving) parts.moving->place(panels, parts.clock.time);
+                parts.interface.surface.place(panels, parts.clock.elapsed);
+                if (parts.flux_walls) {
+                    parts.flux_walls->floor_count = start.floor_count;
+                    parts.flux_walls->update_geometry();
+                }
                 if (!renewed) return;
-                rebuild_lists(parts.fluid, &parts.walls, parallel_loop);
-                parts.interface.rebuild(parts.fluid, parts.walls);
-                parts.fluid.record.walls = parts.walls.panels.position;
+                if (parts.flux_walls) {
+                    rebuild_lists(parts.fluid, *parts.flux_walls, parallel_loop);
+                    parts.interface.rebuild(parts.fluid, *parts.flux_walls);
+                } else {
+                    rebuild_lists(parts.fluid, parts.walls, parallel_loop);
+                    parts.interface.rebuild(parts.fluid, *parts.walls);
+                }
+                parts.fluid.record.walls = panels.position;
                 start.fluid.take(parts.fluid, parts.clock);  // in the new order
             }};
 }

@@ -279,5 +279,5 @@ TEST_CASE("what walls of normal fluxes do not go with is said, with what to do")
               .empty());
     const std::string coupled = with(gate, "sound_speed = 30.0", "sound_speed = 30.0\nwalls = \"normal_flux\"");
     CHECK(refusal(coupled).empty());
-    CHECK(refusal(with(coupled, "\"cps\"", "\"iterated\"")).find("go back to the start") != std::string::npos);
+    CHECK(refusal(with(coupled, "\"cps\"", "\"iterated\"")).empty());
 }

@@ -201,6 +201,9 @@ TEST_CASE("cycles that are iterated go on with the same bits") {
                                      "\"\nratio = " + std::to_string(p) + "\n";
             check_restarts<2>(with(every_cycle(gate), "algorithm = \"cps\"\nratio = 1\n", keys), seed++);
         }
+    const std::string flux =
+        with(every_cycle(gate), "sound_speed = 30.0", "sound_speed = 30.0\nwalls = \"normal_flux\"");
+    check_restarts<2>(with_coupling(flux, "iterated", 2), seed);
 }
 
 TEST_CASE("a body whose factorisation lasts goes on with the same bits") {
