@@ -109,6 +109,7 @@ struct Solver<D>::Implementation {
     NewtonResult step_explicitly(double dt, BlockLoop loop);
     bool solve_lumped(BlockLoop loop);  // residual -> correction; false: a body without inertia
     double largest_stable_step();
+    double find_stable_step(bool again);
 
     // implicit_step.cpp
     NewtonResult step_implicitly(double dt, BlockLoop loop);
@@ -191,7 +192,9 @@ struct Solver<D>::Implementation {
         bool operator==(const Linearisation&) const = default;
     };
     Linearisation linearised;
-    double stable_step = 0;  // once computed [s]
+    double stable_step = 0;             // of an explicit scheme, once computed [s] …
+    int stable_step_age = 0;            // … so many steps ago
+    std::vector<double> stiffest_mode;  // its mode, from which it is renewed
 
     bool accelerations_known = false;
     Account account;

@@ -76,6 +76,8 @@ void Solver<D>::save(State& state) const {
     state.damping_forces = self.damping;
     state.damping_dissipation = self.account.damping;
     state.stable_step = self.stable_step;
+    state.stable_step_age = self.stable_step_age;
+    state.stiffest_mode = self.stiffest_mode;
     state.statistics = self.statistics;
     state.factor_valid = self.factor.valid;
     state.by_gradients = self.by_gradients;
@@ -137,6 +139,8 @@ void Solver<D>::restore(const State& state) {
     self.damping = state.damping_forces;
     self.account.damping = state.damping_dissipation;
     self.stable_step = state.stable_step;
+    self.stable_step_age = state.stable_step_age;
+    self.stiffest_mode = state.stiffest_mode;
     self.restore_factor(state);
     self.statistics = state.statistics;
     self.update_positions();

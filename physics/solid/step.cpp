@@ -127,6 +127,7 @@ void Solver<D>::Implementation::accept_step(BlockLoop loop) {
     accelerations_known = true;
     update_positions();
     ++statistics.steps;
+    ++stable_step_age;
 }
 
 template <int D>

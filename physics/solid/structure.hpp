@@ -74,7 +74,9 @@ struct State {
     int factor_steps = 0, factor_iterations_when_new = 0, factor_excess = 0;
     std::vector<double> factor_displacements, factor_rigid_bodies, factor_contacts;
     double factor_time = 0;   // [s], of the loads
-    double stable_step = 0;   // of an explicit scheme, once computed [s]
+    double stable_step = 0;   // of an explicit scheme, once computed [s] …
+    int stable_step_age = 0;  // … how many steps ago, and its mode
+    std::vector<double> stiffest_mode;
     std::vector<char> files;  // of a solver that is another program: the file that it continues from
 
     template <class Archive>
@@ -83,7 +85,8 @@ struct State {
                accelerations_known, external_work, numerical_dissipation, statistics);
         fields(damping_forces, damping_dissipation, loads, load_work);
         fields(factor_valid, by_gradients, factor_time_step, factor_steps, factor_iterations_when_new, factor_excess,
-               factor_displacements, factor_rigid_bodies, factor_contacts, factor_time, stable_step, files);
+               factor_displacements, factor_rigid_bodies, factor_contacts, factor_time, stable_step, stable_step_age,
+               stiffest_mode, files);
     }
 };
 
