@@ -10,14 +10,38 @@ namespace aquagraph::engine {
 
 namespace {
 
-// Even–odd rule on the boundary of the mesh.
-bool inside(const solid::Mesh<2>& mesh, const std::vector<solid::Facet>& boundary, double x, double y) {
-    bool odd = false;
-    for (const solid::Facet& edge : boundary) {
-        const int a = edge[0], b = edge[1];
-        const auto &p = mesh.nodes[std::size_t(a)], &q = mesh.nodes[std::size_t(b)];
-        if ((p[1] > y) != (q[1] > y) && x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0])) odd = !odd;
+// The boundary of the mesh as straight pieces, as fine along a curved edge of a quadratic element as it takes.
+std::vector<std::array<fluid::Vec2, 2>> outline(const solid::Mesh<2>& mesh) {
+    constexpr int pieces = 16;  // of a curved edge: off by its height over 256
+    const auto node = [&](int n) {
+        const auto& x = mesh.nodes[std::size_t(n)];
+        return fluid::Vec2(x[0], x[1]);
+    };
+    std::vector<std::array<fluid::Vec2, 2>> made;
+    for (const solid::Facet& edge : solid::boundary_facets(mesh)) {
+        const fluid::Vec2 a = node(edge[0]), b = node(edge[1]);
+        if (edge.size() == 2) {
+            made.push_back({a, b});
+            continue;
+        }
+        const fluid::Vec2 middle = node(edge[2]);
+        fluid::Vec2 from = a;
+        for (int k = 1; k <= pieces; ++k) {  // ends exactly where the next edge begins
+            const double s = double(k) / pieces;
+            const fluid::Vec2 to =
+                k == pieces ? b : (1 - s) * (1 - 2 * s) * a + 4 * s * (1 - s) * middle + s * (2 * s - 1) * b;
+            made.push_back({from, to});
+            from = to;
+        }
     }
+    return made;
+}
+
+// Even–odd rule.
+bool inside(const std::vector<std::array<fluid::Vec2, 2>>& outline, double x, double y) {
+    bool odd = false;
+    for (const auto& [p, q] : outline)
+        if ((p.y() > y) != (q.y() > y) && x < p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x())) odd = !odd;
     return odd;
 }
 
@@ -31,11 +55,10 @@ std::string body_of(const Model<2>& model, std::size_t particle) {
 }
 
 void refuse_water_inside(const io::Scene& scene, const Model<2>& model) {
-    const auto& mesh = model.solid->mesh();
-    const auto boundary = solid::boundary_facets(mesh);
+    const auto boundary = outline(model.solid->mesh());
     const auto& particles = model.fluid->particles;
     for (std::size_t i = 0; i < particles.count; ++i)
-        if (inside(mesh, boundary, particles.x[0][i], particles.x[1][i]))
+        if (inside(boundary, particles.x[0][i], particles.x[1][i]))
             throw io::scene_error(scene, body_of(model, i),
                                   "there is water inside the solid, at (" + std::to_string(particles.x[0][i]) + ", " +
                                       std::to_string(particles.x[1][i]) + ") m",

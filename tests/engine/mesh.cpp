@@ -54,6 +54,24 @@ std::string with_mesh() {
     return with(with(gate, box, ""), "name = \"gate\"\n", "name = \"gate\"\nmesh = \"gate.msh\"\n");
 }
 
+// One quadrilateral of eight nodes where the gate's box is, twice as wide; its left edge bulges by this much.
+std::string bulging_mesh(double bulge) {
+    const double top = 0.079, middle = 0.0395;
+    std::ostringstream mesh;
+    mesh.precision(17);
+    mesh << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+            "$PhysicalNames\n5\n1 1 \"left\"\n1 2 \"bottom\"\n1 3 \"right\"\n1 4 \"top\"\n2 5 "
+            "\"rubber\"\n$EndPhysicalNames\n"
+            "$Nodes\n8\n";
+    const double x[][2] = {{0.1, 0},   {0.11, 0},      {0.11, top},  {0.1, top},
+                           {0.105, 0}, {0.11, middle}, {0.105, top}, {0.1 - bulge, middle}};
+    for (int n = 0; n < 8; ++n) mesh << n + 1 << " " << x[n][0] << " " << x[n][1] << " 0\n";
+    mesh << "$EndNodes\n$Elements\n5\n"
+            "1 8 2 1 1 4 1 8\n2 8 2 2 2 1 2 5\n3 8 2 3 3 2 3 6\n4 8 2 4 4 3 4 7\n"
+            "5 16 2 5 5 1 2 3 4 5 6 7 8\n$EndElements\n";
+    return mesh.str();
+}
+
 }  // namespace
 
 TEST_CASE("a gate from a mesh file moves as the gate of a box") {
@@ -119,4 +137,20 @@ TEST_CASE("a body that no water can reach is refused with its place in the scene
     CHECK(said(narrow).find("no water will ever reach them") != std::string::npos);
     // Near enough to be reached, it is taken.
     CHECK(said(with(gate, "max = [0.5, 0.3]", "max = [0.101, 0.3]")) == "");
+}
+
+TEST_CASE("water inside a curved side of a body is refused, and water that ends before it is taken") {
+    const auto said = [&](double bulge, const char* water) {
+        ScratchFolder folder;
+        folder.write("gate.msh", bulging_mesh(bulge));
+        const std::string text = with(with_mesh(), "max = [0.1, 0.14]", std::string("max = [") + water + ", 0.14]");
+        const io::Scene scene = io::read_scene(folder.write("scene.toml", text));
+        return refusal_by([&] { engine::make_model<2>(scene); });
+    };
+    // Particles stand 2.5 and 7.5 mm before the chord of the corners.
+    CHECK(said(0, "0.1") == "");
+    CHECK(said(0.004, "0.1").find("there is water inside the solid") != std::string::npos);
+    CHECK(said(0.002, "0.1") == "");
+    CHECK(said(0.007, "0.095") == "");
+    CHECK(said(0.008, "0.095").find("there is water inside the solid") != std::string::npos);
 }
