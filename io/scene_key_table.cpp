@@ -83,7 +83,8 @@ constexpr auto keys = std::to_array<SceneKey>({
     {"coupling", "extrapolation", K::choice, false, "", any, "none linear quadratic", "linear",
      "how wet nodes move between two solid steps; none: they stand still, to show why they should not"},
     {"coupling", "step_rule", K::choice, false, "", any, "fixed predicted", "fixed",
-     "not css: steps of a cycle are fixed to `step_fraction` of the present CFL step, or to the trend of the CFL step "
+     "cps and iterated (css chooses every step anew; `predicted` is refused there): steps of a cycle are fixed to "
+     "`step_fraction` of the present CFL step, or to the trend of the CFL step "
      "and how well it did of late"},
     {"coupling", "step_fraction", K::number, false, "", open_below(0, 1), "", "0.8; predicted: 1",
      "of the CFL step, or of its trend"},

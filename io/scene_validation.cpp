@@ -135,6 +135,11 @@ class Validation {
         for (const char* key : {"coupling.relaxation", "coupling.tolerance", "coupling.most_iterations"})
             idle(key, coupling.algorithm != CouplingAlgorithm::iterated, "only the iterated algorithm iterates",
                  "take it out, or choose algorithm = \"iterated\"");
+        // "fixed" is what css does not know either, but says nothing that it does not do: studies set it for all.
+        idle("coupling.step_rule",
+             coupling.algorithm == CouplingAlgorithm::css && coupling.step_rule == coupling::StepRule::predicted,
+             "css chooses every step anew and predicts none",
+             "take it out, or choose algorithm = \"cps\" or \"iterated\"");
         const bool energy = coupling.load == coupling::LoadMethod::energy_conservative;
         idle("coupling.energy_cycles", !energy, "only the energy-conservative load averages over cycles",
              "take it out, or choose load = \"energy_conservative\"");

@@ -339,6 +339,9 @@ TEST_CASE("a solid without water") {
 TEST_CASE("keys that would do nothing") {
     expect("[[fluid.box]]", "[fluid.transport]\nname = \"none\"\nepsilon = 0.3\n[[fluid.box]]", 13, 11,
            "`epsilon` belongs to X-SPH", "x_sph");
+    expect("ratio = 2", "algorithm = \"css\"\nstep_rule = \"predicted\"", 34, 13, "css chooses every step anew",
+           "\"cps\"");
+    CHECK(error_of(with(sound, "ratio = 2", "algorithm = \"css\"\nstep_rule = \"fixed\"")) == "");
     expect("spacing = 0.1", "spacing = 0.1\nrelax_tolerance = 0.01", 10, 19, "nothing is relaxed in this scene",
            "relax = true");
 }
