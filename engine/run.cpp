@@ -233,8 +233,9 @@ class Run {
         print_table(out_, end.figures);
         print_comparisons(out_, comparisons);
         if (trace_) print(summarise_trace(options_.trace), out_);
-        out_ << fmt::format("{} in {:.2f} s on {}; results in {}\n", counted(model_->clock.steps, "step"),
-                            end.figures.wall_seconds, counted(end.figures.threads, "thread"), folder_.string());
+        out_ << fmt::format("{} in {:.2f} s on {}; results in {}, begin with report.html\n",
+                            counted(model_->clock.steps, "step"), end.figures.wall_seconds,
+                            counted(end.figures.threads, "thread"), folder_.string());
     }
 
     const io::Scene& scene_;

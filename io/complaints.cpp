@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <tuple>
+#include <vector>
 
 namespace aquagraph::io {
 namespace {
@@ -20,19 +22,47 @@ std::string_view line_of(std::string_view text, int line) {
     return found;
 }
 
-// Blanks up to the column, counted in characters as an editor does; tabs stay tabs so that the caret stands below its
-// target.
-std::string caret(std::string_view line, int column) {
-    std::string margin;
-    int at = 1;
-    for (const char c : line) {
-        const bool continues_a_character = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-        if (continues_a_character) continue;
-        if (at++ >= column) break;
-        margin += c == '\t' ? '\t' : ' ';
+// The characters of a line of UTF-8; what is none, and what would move a terminal's cursor, becomes a question mark.
+std::vector<std::string> characters_of(std::string_view line) {
+    std::vector<std::string> characters;
+    while (!line.empty()) {
+        const auto first = static_cast<unsigned char>(line[0]);
+        const std::size_t length = first < 0x80 ? 1 : (first & 0xE0) == 0xC0 ? 2 : (first & 0xF0) == 0xE0 ? 3 : 4;
+        const std::string_view rest = line.substr(1, length - 1);
+        const bool whole =
+            first < 0x80 || (first >= 0xC2 && first < 0xF5 && rest.size() == length - 1 &&
+                             std::all_of(rest.begin(), rest.end(), [](char c) { return (c & 0xC0) == 0x80; }));
+        const bool shown = first == '\t' || (first >= 0x20 && first != 0x7F);
+        characters.emplace_back(whole && shown ? line.substr(0, length) : "?");
+        line.remove_prefix(whole ? length : 1);
     }
-    while (at++ < column) margin += ' ';
-    return margin + '^';
+    return characters;
+}
+
+constexpr std::size_t most_shown = 120;  // characters of a line
+
+// The line, or the part of a long one about the column (a character's number, as an editor counts), and a caret below
+// it. Tabs stay tabs so that the caret stands below its target.
+std::string excerpt(std::string_view line, int column) {
+    const std::vector<std::string> characters = characters_of(line);
+    const std::size_t target = std::size_t(std::max(column, 1)) - 1;
+    std::size_t from = 0, to = characters.size();
+    if (to > most_shown) {
+        from = std::min(target > most_shown / 2 ? target - most_shown / 2 : 0, to - most_shown);
+        to = from + most_shown;
+    }
+    std::string shown = from > 0 ? "…" : "", margin = from > 0 ? " " : "";
+    for (std::size_t k = from; k < to; ++k) shown += characters[k];
+    for (std::size_t k = from; k < target; ++k) margin += k < characters.size() && characters[k] == "\t" ? "\t" : " ";
+    if (to < characters.size()) shown += "…";
+    return fmt::format("    {}\n    {}^", shown, margin);
+}
+
+std::string beginning(std::string_view line) {
+    const std::vector<std::string> characters = characters_of(line);
+    std::string shown;
+    for (std::size_t k = 0; k < std::min(characters.size(), most_shown); ++k) shown += characters[k];
+    return characters.size() > most_shown ? shown + "…" : shown;
 }
 
 std::string written(const std::filesystem::path& file, std::string_view text, const SceneComplaint& complaint) {
@@ -41,9 +71,9 @@ std::string written(const std::filesystem::path& file, std::string_view text, co
     const auto [line, column] = complaint.position;
     const std::string_view source = line_of(text, line);
     if (source.starts_with(override_mark))
-        return fmt::format("{}: error: {}\nhelp: {}", source.substr(2), complaint.message, complaint.help);
-    return fmt::format("{}:{}:{}: error: {}\n    {}\n    {}\nhelp: {}", file.string(), line, column, complaint.message,
-                       source, caret(source, column), complaint.help);
+        return fmt::format("{}: error: {}\nhelp: {}", beginning(source.substr(2)), complaint.message, complaint.help);
+    return fmt::format("{}:{}:{}: error: {}\n{}\nhelp: {}", file.string(), line, column, complaint.message,
+                       excerpt(source, column), complaint.help);
 }
 
 std::string written(const std::filesystem::path& file, std::string_view text,

@@ -273,6 +273,10 @@ Scene read_scene(const std::filesystem::path& file, std::span<const std::string>
 
     Complaints complaints;
     const CheckedDocument document = check_document(scene_table(), scene.text, complaints, scene.overrides, lines + 1);
+    if (complaints.touch("case"))
+        throw SceneError(
+            file, scene.text,
+            {{"", {}, "this is a study, not a scene", "give it to `aquagraph study`, or one of its scenes"}});
     // A file that is no TOML, or of another version, says nothing about what else may be wrong in it.
     if (!complaints.positions.empty() && !complaints.touch("schema_version")) {
         Filler(document, complaints, scene).everything();

@@ -264,6 +264,12 @@ Study read_study(const std::filesystem::path& file) {
     study.name = study.name.substr(0, study.name.find('.'));
     Complaints complaints;
     const CheckedDocument document = check_document(study_table(), text, complaints);
+    if (complaints.touch("domain"))
+        throw SceneError(file, text,
+                         {{"",
+                           {},
+                           "this is a scene, not a study",
+                           "give it to `aquagraph run`; a study names scenes in its [[case]]s"}});
     if (!complaints.positions.empty() && !complaints.touch("schema_version"))
         Reader(document, complaints, study).everything();
     if (!complaints.empty()) throw SceneError(file, text, complaints.in_order_of_the_file());

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/scene_reader.hpp"
+#include "io/study_file.hpp"
 #include "tests/io/scratch.hpp"
 #include "tests/text.hpp"
 
@@ -101,6 +102,32 @@ TEST_CASE("the whole of a message") {
           "    \tspacing = -0.1\n"
           "    \t          ^\n"
           "help: `spacing` is a number > 0, in m: Δx, distance between particles");
+}
+
+TEST_CASE("of a very long line the part about the mistake is shown, and no character that a terminal would obey") {
+    const std::string long_title = "title = \"" + std::string(500, 'x') + "\" ü \x1b[2J\xff";
+    const std::string what = error_of(with(sound, "title = \"test\"", long_title));
+    CAPTURE(what);
+    CHECK(what.size() < 500);
+    CHECK(what.find('\x1b') == std::string::npos);
+    CHECK(what.find('\xff') == std::string::npos);
+    std::string crowded = "spacing = -0.1 # ";
+    for (int k = 0; k < 300; ++k) crowded += "ü";
+    CHECK(error_of(with(sound, "spacing = 0.1", crowded)).find("\n    spacing = -0.1 # üü") != std::string::npos);
+    // The caret stands below its target although the line begins elsewhere.
+    const std::string far = error_of(with(sound, "min = [0.0, 0.0]", "min = [0.0," + std::string(300, ' ') + "\"a\"]"));
+    CAPTURE(far);
+    const std::size_t line = far.find("\n    …") + 1, caret = far.find("\n    ", line + 1) + 1;
+    const std::size_t target = far.find("\"a\"", line) - line - std::string("…").size() + 1;
+    CHECK(far.find('^', caret) - caret == target);
+}
+
+TEST_CASE("a study in place of a scene is recognised, and the other way round") {
+    const std::filesystem::path benchmarks = std::filesystem::path(AQUAGRAPH_SOURCE_DIR) / "benchmarks";
+    CHECK_THROWS_WITH_AS(io::read_scene(benchmarks / "fluid.study.toml"),
+                         doctest::Contains("this is a study, not a scene"), io::SceneError);
+    CHECK_THROWS_WITH_AS(io::read_study(benchmarks / "gate_2d/scene.toml"),
+                         doctest::Contains("this is a scene, not a study"), io::SceneError);
 }
 
 TEST_CASE("a file that cannot be read") {
