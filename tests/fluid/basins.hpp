@@ -51,6 +51,13 @@ inline Driver<2> settle(const std::vector<Point<2>>& points, double spacing, Pan
     return driver;
 }
 
+template <int D>
+Vec<D> position(const Particles<D>& s, std::size_t i) {
+    Vec<D> x;
+    for (int d = 0; d < D; ++d) x[d] = s.x[std::size_t(d)][i];
+    return x;
+}
+
 // Lanes closer than R that particle i sees, itself left out.
 template <int D>
 std::vector<std::size_t> neighbours_of(const Fluid<D>& fluid, std::size_t i) {

@@ -89,13 +89,6 @@ inline Driver<3> settle(const std::vector<Point<3>>& points, double spacing, Pan
 }
 
 template <int D>
-Vec<D> position(const Particles<D>& s, std::size_t i) {
-    Vec<D> x;
-    for (int d = 0; d < D; ++d) x[d] = s.x[std::size_t(d)][i];
-    return x;
-}
-
-template <int D>
 Vec<D> velocity(const Particles<D>& s, std::size_t i) {
     Vec<D> v;
     for (int d = 0; d < D; ++d) v[d] = s.v[std::size_t(d)][i];

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/fluid/basins.hpp"
+#include "tests/fluid/supports.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::fluid;
@@ -14,28 +14,6 @@ using namespace aquagraph::fluid::test;
 namespace {
 
 constexpr double spacing = 0.05, R = support_ratio * spacing;
-
-// Fullness and partition of unity of the particles that `chosen` picks, by place.
-struct Spread {
-    double least = 10, most = 0, least_unity = 10, most_unity = 0;
-    std::size_t count = 0;
-};
-
-template <class Chosen>
-Spread spread(const Driver<2>& driver, Chosen&& chosen) {
-    Spread found;
-    const auto& s = driver.fluid.particles;
-    for (std::size_t i = 0; i < s.count; ++i) {
-        if (!chosen(Vec2(s.x[0][i], s.x[1][i]))) continue;
-        ++found.count;
-        found.least = std::min(found.least, s.fullness[i]);
-        found.most = std::max(found.most, s.fullness[i]);
-        const double unity = partition_of_unity(driver.fluid, i);
-        found.least_unity = std::min(found.least_unity, unity);
-        found.most_unity = std::max(found.most_unity, unity);
-    }
-    return found;
-}
 
 // Of a particle in the middle of a large lattice.
 Spread inside() {
@@ -54,25 +32,16 @@ double outside_distance(const Vec2& x, const Vec2& low, const Vec2& high) {
                       std::max({low.y() - x.y(), 0.0, x.y() - high.y()}));
 }
 
-// Seen places that coincide: each would count twice. A line of sight through the very vertex of a convex corner enters
-// the wall on either side, rounding decides which: not counted.
+// A line of sight through the very vertex of a convex corner enters the wall on either side: not counted.
 std::size_t places_seen_twice(const Driver<2>& driver) {
     const auto& s = driver.fluid.particles;
-    const auto position = [&](std::size_t i) { return Vec2(s.x[0][i], s.x[1][i]); };
     const auto grazes = [&](std::size_t i, std::size_t j) {
-        const Vec2 sight = (position(j) - position(i)).normalized();
+        const Vec2 sight = (position(s, j) - position(s, i)).normalized();
         for (const Vec2& vertex : driver.walls->panels.position)
-            if (std::fabs(cross(sight, vertex - position(i))) < 1e-9) return true;
+            if (std::fabs(cross(sight, vertex - position(s, i))) < 1e-9) return true;
         return false;
     };
-    std::size_t twice = 0;
-    for (std::size_t i = 0; i < s.count; ++i) {
-        const auto seen = neighbours_of(driver.fluid, i);
-        for (std::size_t a = 0; a < seen.size(); ++a)
-            for (std::size_t b = 0; b < a; ++b)
-                twice += distance(s, seen[a], seen[b]) < 0.3 * spacing && !grazes(i, seen[a]);
-    }
-    return twice;
+    return test::places_seen_twice(driver, grazes);
 }
 
 }  // namespace

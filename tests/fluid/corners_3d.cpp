@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tests/fluid/basins_3d.hpp"
+#include "tests/fluid/supports.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::fluid;
@@ -16,30 +17,6 @@ using namespace aquagraph::fluid::test;
 namespace {
 
 constexpr double spacing = 0.1, R = support_ratio * spacing;
-
-// Partition of unity and fullness of the particles that `chosen` picks, by place.
-struct Spread {
-    double least = 10, most = 0, least_unity = 10, most_unity = 0, mean_unity = 0;
-    std::size_t count = 0;
-};
-
-template <class Chosen>
-Spread spread(const Driver<3>& driver, Chosen&& chosen) {
-    Spread found;
-    const auto& s = driver.fluid.particles;
-    for (std::size_t i = 0; i < s.count; ++i) {
-        if (!chosen(position(s, i))) continue;
-        ++found.count;
-        found.least = std::min(found.least, s.fullness[i]);
-        found.most = std::max(found.most, s.fullness[i]);
-        const double unity = partition_of_unity(driver.fluid, i);
-        found.least_unity = std::min(found.least_unity, unity);
-        found.most_unity = std::max(found.most_unity, unity);
-        found.mean_unity += unity;
-    }
-    found.mean_unity /= double(found.count);
-    return found;
-}
 
 // Of a particle in the middle of a large lattice.
 Spread inside() {
@@ -60,8 +37,7 @@ void check_as_inside(const Spread& near) {
     CHECK(near.most_unity == doctest::Approx(inside().least_unity).epsilon(1e-9));
 }
 
-// Seen places that coincide: each would count twice. Lines of sight through the very edge of a panel are not counted:
-// rounding decides where they enter.
+// Lines of sight through the very edge of a panel are not counted where that is allowed.
 std::size_t places_seen_twice(const Driver<3>& driver, bool grazing_allowed = false) {
     const auto& s = driver.fluid.particles;
     const auto& panels = driver.walls->panels;
@@ -76,14 +52,7 @@ std::size_t places_seen_twice(const Driver<3>& driver, bool grazing_allowed = fa
             }
         return false;
     };
-    std::size_t twice = 0;
-    for (std::size_t i = 0; i < s.count; ++i) {
-        const auto seen = neighbours_of(driver.fluid, i);
-        for (std::size_t a = 0; a < seen.size(); ++a)
-            for (std::size_t b = 0; b < a; ++b)
-                twice += distance(s, seen[a], seen[b]) < 0.3 * spacing && !grazes(i, seen[a]);
-    }
-    return twice;
+    return test::places_seen_twice(driver, grazes);
 }
 
 double outside_distance(const Vec3& x, const Vec3& low, const Vec3& high) {
