@@ -99,7 +99,7 @@ void check_fluid(const io::Scene& scene, Model<D>& model, tasks::Executor& execu
     const double n = double(std::max<std::size_t>(1, fluid.particles.count));
     std::optional<Staggering> staggering;
     if constexpr (D == 2)
-        if (model.interface) staggering = forecast_staggering(scene, model, present_step(scene, model));
+        if (model.interface) staggering = forecast_staggering(scene, model);
     const Forecast made = forecast(scene, model, executor);
     out << fmt::format("fluid      {}; {} particles of {:.4g} m, R/Δx {:g}, {:.0f} neighbours\n",
                        io::scheme_text(*scene.fluid), fluid.particles.count, fluid.spacing, scene.fluid->support_ratio,

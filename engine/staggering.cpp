@@ -8,7 +8,6 @@
 
 #include "engine/body_parts.hpp"
 #include "physics/coupling/staggered_stability.hpp"
-#include "physics/fluid/time_step.hpp"
 #include "tasks/parallel_loop.hpp"
 
 namespace aquagraph::engine {
@@ -65,16 +64,7 @@ std::string up_to(int ratio, int most) {
 
 }  // namespace
 
-double present_step(const io::Scene& scene, const Model<2>& model) {
-    const fluid::Fluid<2>& fluid = *model.fluid;
-    fluid::StepLimits limits;
-    for (std::size_t block = 0; block < fluid.blocks(); ++block)
-        limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
-                                             fluid.viscosity_of_step()));
-    return (scene.coupling.algorithm == io::CouplingAlgorithm::css ? 1 : scene.coupling.step_fraction) * limits.step();
-}
-
-std::optional<Staggering> forecast_staggering(const io::Scene& scene, const Model<2>& model, double fluid_step) {
+std::optional<Staggering> forecast_staggering(const io::Scene& scene, const Model<2>& model) {
     if (!model.interface || scene.coupling.algorithm == io::CouplingAlgorithm::iterated ||
         scene.solid->scheme == solid::Scheme::central_difference)
         return {};
@@ -95,6 +85,8 @@ std::optional<Staggering> forecast_staggering(const io::Scene& scene, const Mode
     const fluid::Panels<2>& panels = panels_of(model);
     const fluid::Tait& tait = model.fluid->tait;
     const double impedance = tait.reference_density * tait.sound_speed;
+    const double fluid_step = (scheme.side_by_side ? scene.coupling.step_fraction : 1) * model.fluid->cfl *
+                              model.fluid->kernel.radius() / tait.sound_speed;
     const auto under = wet_modes(model.interface->surface, panels, std::vector<bool>(panels.size(), true), modes);
     if (under.empty()) return {};
     const auto largest = [&](const std::vector<coupling::WetMode>& of) {

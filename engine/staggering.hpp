@@ -15,16 +15,14 @@ struct Staggering {
     double mass_ratio = 0;        // z of a fluid step and the lowest mode, all under water: staggered_stability.hpp
 };
 
-// fluid_step: the first one [s]. Nothing for what is iterated, for central differences and for bodies whose modes
-// cannot be computed. The model is only read: modes are those of a body of its own, as drawn.
-std::optional<Staggering> forecast_staggering(const io::Scene& scene, const Model<2>& model, double fluid_step);
+// For fluid steps that the sound at rest limits. Nothing for what is iterated, for central differences and for bodies
+// whose modes cannot be computed. The model is only read: modes are those of a body of its own, as drawn, and take
+// seconds where it has ten thousand nodes.
+std::optional<Staggering> forecast_staggering(const io::Scene& scene, const Model<2>& model);
 
 // In a few words.
 std::string text_of(const Staggering& staggering);
 // What there is to say before a run of this scene; empty: nothing.
 std::string warning_of(const Staggering& staggering, const io::Scene& scene);
-
-// The fluid's present step under this scene's coupling [s].
-double present_step(const io::Scene& scene, const Model<2>& model);
 
 }  // namespace aquagraph::engine

@@ -36,12 +36,16 @@ double growth_per_cycle(const StaggeredScheme& scheme, double z, double omega_dt
 
 int largest_stable_ratio(const StaggeredScheme& scheme, std::span<const WetMode> modes, double impedance,
                          double fluid_step, int most) {
+    constexpr int frequencies = 12;  // in each mode's band
     for (int p = 1; p <= most; ++p) {
         const double dt = p * fluid_step;
         for (const WetMode& mode : modes)
-            if (growth_per_cycle(scheme, impedance * dt / mode.mass_per_area, mode.angular_frequency * dt) >
-                1 + negligible_growth)
-                return p - 1;
+            for (int k = 0; k < frequencies; ++k) {
+                const double omega =
+                    mode.angular_frequency * std::pow(lowest_wet_frequency, double(k) / (frequencies - 1));
+                if (growth_per_cycle(scheme, impedance * dt / mode.mass_per_area, omega * dt) > 1 + negligible_growth)
+                    return p - 1;
+            }
     }
     return most;
 }

@@ -45,6 +45,10 @@ double growth_per_cycle(const StaggeredScheme& scheme, double z, double omega_dt
 // Of a cycle; the viscosity of the scheme takes more than this from any wave that the particles resolve.
 inline constexpr double negligible_growth = 1e-3;
 
+// Water that goes along with a mode lowers its frequency, by how much is not known here: every mode is tried at all
+// frequencies between this part of its own and its own.
+inline constexpr double lowest_wet_frequency = 1.0 / 3;
+
 // The largest p up to which no mode grows by more than that, at most `most`; 0: not even p = 1. impedance: ρ0 c0
 // [kg/(m² s)], fluid_step: Δt_f [s].
 int largest_stable_ratio(const StaggeredScheme& scheme, std::span<const WetMode> modes, double impedance,

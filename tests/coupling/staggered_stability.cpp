@@ -146,6 +146,13 @@ TEST_CASE("the forecast of p is the last one before some mode grows") {
     CHECK(largest_stable_ratio(css, std::vector{heavy, light}, 1000.0, 1e-2 / 3.0001, 100) == 5);
     CHECK(largest_stable_ratio(css, std::vector{heavy}, 1000.0, 1e-4, 100) == 100);
     CHECK(largest_stable_ratio(css, std::vector{heavy}, 1000.0, 1.0, 100) == 0);
+    // CPS with HHT, α = -0.3, grows from z = 0.11 on where ω Δt is about 1.2; a mode at 2 comes down to there in water.
+    const StaggeredScheme cps = scheme(true, solid::Scheme::hht, -0.3);
+    for (const double omega_dt : {1.2, 2.0, 3.0}) {
+        CHECK(largest_stable_ratio(cps, std::vector{WetMode{omega_dt / 1e-3, 10}}, 1000.0, 1e-3, 1) == 1);
+        CHECK(largest_stable_ratio(cps, std::vector{WetMode{omega_dt / 1e-3, 10}}, 2000.0, 1e-3, 1) == 0);
+    }
+    CHECK(largest_stable_ratio(cps, std::vector{WetMode{0.3 / 1e-3, 10}}, 2000.0, 1e-3, 1) == 1);
     const WetMode unmoved{100, std::numeric_limits<double>::infinity()};
     CHECK(largest_stable_ratio(css, std::vector{unmoved}, 1000.0, 1.0, 7) == 7);
 }
