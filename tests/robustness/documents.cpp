@@ -89,6 +89,27 @@ TEST_CASE("every run of every study that is shipped has a scene that is read") {
     }
 }
 
+TEST_CASE("tables in READMEs that a study writes stand beside a scene of that study") {
+    const std::regex marker("<!-- begin study (\\w+)/(\\w+) -->");
+    int tables = 0;
+    for (const fs::path& document : files_below(root / "benchmarks", "README.md")) {
+        CAPTURE(document);
+        const std::string text = contents(document);
+        for (std::sregex_iterator it(text.begin(), text.end(), marker); it != std::sregex_iterator(); ++it) {
+            const std::string name = (*it)[2];
+            CAPTURE(name);
+            const io::Study study = io::read_study(root / "benchmarks" / ((*it)[1].str() + ".study.toml"));
+            const auto one = std::find_if(study.cases.begin(), study.cases.end(),
+                                          [&](const io::StudyCase& other) { return other.name == name; });
+            REQUIRE(one != study.cases.end());
+            CHECK(one->scene.parent_path() == document.parent_path());
+            CHECK(text.find("<!-- end study " + study.name + "/" + name + " -->") != std::string::npos);
+            ++tables;
+        }
+    }
+    CHECK(tables >= 15);
+}
+
 TEST_CASE("links between documents lead somewhere") {
     const std::regex link(R"(\]\(([^)#\s]+)[^)]*\))");
     int links = 0;
