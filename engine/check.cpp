@@ -7,8 +7,8 @@
 
 #include "engine/forecast.hpp"
 #include "engine/staggering.hpp"
-#include "engine/wording.hpp"
 #include "io/scheme_text.hpp"
+#include "io/wording.hpp"
 #include "physics/fluid/rebuild.hpp"
 #include "tasks/executor.hpp"
 #include "tasks/parallel_loop.hpp"
@@ -73,7 +73,7 @@ void print_solid(std::ostream& out, const io::Scene& scene, const solid::Mesh<D>
 void print_run_time(std::ostream& out, const Forecast& made, int threads, const std::string& remark) {
     if (made.no_solid_step.empty())
         out << fmt::format("run time   {} on {} of this machine{}\n", duration(made.seconds),
-                           counted(threads, "thread"), remark);
+                           io::counted(threads, "thread"), remark);
     else
         out << "run time   unknown: " << made.no_solid_step << "\n";
 }

@@ -19,8 +19,8 @@
 #include "engine/staggering.hpp"
 #include "engine/stop_request.hpp"
 #include "engine/trace_summary.hpp"
-#include "engine/wording.hpp"
 #include "io/progress.hpp"
+#include "io/wording.hpp"
 #include "tasks/executor.hpp"
 #include "tasks/trace.hpp"
 
@@ -67,9 +67,9 @@ void print_comparisons(std::ostream& out, const std::vector<io::Comparison>& com
                                c.column, c.label, c.window[0], c.window[1]);
         else
             out << fmt::format(
-                "{} against {}: RMS {:.4g} {} ({:.1f} % of the peak), mean {:+.3g} {}, {} points in [{:g}, {:g}] s\n",
-                c.column, c.label, c.rms, c.unit, 100 * c.normalised, c.mean, c.unit, c.points, c.window[0],
-                c.window[1]);
+                "{} against {}: RMS {:.4g} {} ({:.1f} % of the peak), mean {:+.3g} {}, {} in [{:g}, {:g}] s\n",
+                c.column, c.label, c.rms, c.unit, 100 * c.normalised, c.mean, c.unit,
+                io::counted(long(c.points), "point"), c.window[0], c.window[1]);
     }
 }
 
@@ -237,8 +237,8 @@ class Run {
         print_comparisons(out_, comparisons);
         if (trace_) print(summarise_trace(options_.trace), out_);
         out_ << fmt::format("{} in {:.2f} s on {}; results in {}, begin with report.html\n",
-                            counted(model_->clock.steps, "step"), end.figures.wall_seconds,
-                            counted(end.figures.threads, "thread"), folder_.string());
+                            io::counted(model_->clock.steps, "step"), end.figures.wall_seconds,
+                            io::counted(end.figures.threads, "thread"), folder_.string());
     }
 
     const io::Scene& scene_;

@@ -10,8 +10,8 @@
 
 #include "engine/study_coupling_table.hpp"
 #include "engine/version.hpp"
-#include "engine/wording.hpp"
 #include "io/atomic_file.hpp"
+#include "io/wording.hpp"
 
 namespace aquagraph::engine {
 
@@ -117,7 +117,7 @@ std::string written_by(const io::Study& study, const std::vector<StudyResult>& r
     for (const StudyResult& result : results) repeats = std::max(repeats, result.repeats.size());
     return fmt::format("Written by `./aquagraph study {}{}`, version {}, {}, {}.",
                        (study.file.parent_path().filename() / study.file.filename()).string(),
-                       coarse ? " --coarse" : "", version, counted(threads, "thread"),
+                       coarse ? " --coarse" : "", version, io::counted(threads, "thread"),
                        repeats > 1 ? fmt::format("medians of {} runs in turn", repeats) : "one run each");
 }
 

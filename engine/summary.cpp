@@ -4,6 +4,7 @@
 
 #include "engine/version.hpp"
 #include "io/scene_json.hpp"
+#include "io/wording.hpp"
 
 namespace aquagraph::engine {
 
@@ -90,7 +91,7 @@ io::Report report_of(const Model<D>& model, const RunEnd& end) {
     report.reached_time = model.clock.time;
     report.wall_seconds = end.figures.wall_seconds;
     report.key_numbers = {{"Wall-clock time", fmt::format("{:.4g}", end.figures.wall_seconds), "s",
-                           fmt::format("on {} threads", end.figures.threads)},
+                           "on " + io::counted(end.figures.threads, "thread")},
                           {model.fluid ? "Fluid steps" : "Steps", std::to_string(model.clock.steps), "", ""}};
     if (model.fluid)
         report.key_numbers.push_back(

@@ -23,8 +23,7 @@ std::string seconds(double time) {
 // What the command line has changed: the title is the file's and does not know of it.
 std::string changes(const Scene& scene) {
     if (scene.overrides.empty()) return {};
-    return fmt::format("<p class=\"sub\">changed: {}</p>",
-                       html_escaped(fmt::format("{}", fmt::join(scene.overrides, ", "))));
+    return fmt::format("<br>changed: {}", html_escaped(fmt::format("{}", fmt::join(scene.overrides, ", "))));
 }
 
 std::string banner(const Scene& scene, const Report& report) {
@@ -82,7 +81,7 @@ void write_report(const std::filesystem::path& file, const Scene& scene, const R
     page += fmt::format("<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n", html_escaped(scene.title),
                         assets::style_css);
     page +=
-        fmt::format("<header><h1>{}</h1><p class=\"sub\">{} · t = {} · computed by aquagraph</p>{}</header>\n",
+        fmt::format("<header><h1>{}</h1><p class=\"sub\">{} · t = {} · computed by aquagraph{}</p></header>\n",
                     html_escaped(scene.title), html_escaped(scene.name), seconds(report.reached_time), changes(scene));
     page += banner(scene, report);
     page += key_number_cards(report, comparisons);

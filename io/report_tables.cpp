@@ -8,6 +8,7 @@
 #include "io/report_parts.hpp"
 #include "io/scene_words.hpp"
 #include "io/scheme_text.hpp"
+#include "io/wording.hpp"
 
 namespace aquagraph::io {
 namespace {
@@ -255,8 +256,8 @@ std::string key_number_cards(const Report& report, const std::vector<Comparison>
         const std::size_t blank = rms.find(' ');
         card(fmt::format("{} against {}", comparison.column, comparison.label), rms.substr(0, blank),
              blank == std::string::npos ? "" : rms.substr(blank + 1),
-             fmt::format("RMS, {:.1f} % of the peak; {} points, {:g}–{:g} s", 100 * comparison.normalised,
-                         comparison.points, comparison.window[0], comparison.window[1]));
+             fmt::format("RMS, {:.1f} % of the peak; {}, {:g}–{:g} s", 100 * comparison.normalised,
+                         counted(long(comparison.points), "point"), comparison.window[0], comparison.window[1]));
     }
     for (const KeyNumber& number : report.key_numbers) card(number.label, number.value, number.unit, number.note);
     return text.empty() ? "" : "<div class=\"cards\">\n" + text + "</div>\n";

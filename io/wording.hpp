@@ -4,11 +4,11 @@
 
 #include <string>
 
-namespace aquagraph::engine {
+namespace aquagraph::io {
 
 // "1 thread", "2 threads".
 inline std::string counted(long number, const char* thing) {
     return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
 }
 
-}  // namespace aquagraph::engine
+}  // namespace aquagraph::io
