@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "engine/forecast.hpp"
+#include "engine/sharp_corners.hpp"
 #include "engine/staggering.hpp"
 #include "io/scheme_text.hpp"
 #include "io/wording.hpp"
@@ -112,6 +113,9 @@ void check_fluid(const io::Scene& scene, Model<D>& model, tasks::Executor& execu
     if (model.walls)
         out << fmt::format("walls      ghost particles: {} panels, {} ghosts\n", model.walls->panels.panels.size(),
                            model.walls->ghosts.size());
+    if constexpr (D == 2)
+        if (model.walls)
+            for (const std::string& corner : sharp_corners(model.walls->panels)) out << "warning    " << corner << "\n";
     if (model.solid) print_solid(out, scene, model.solid->mesh());
     using Algorithm = io::CouplingAlgorithm;
     const Algorithm algorithm = scene.coupling.algorithm;

@@ -105,7 +105,7 @@ Forecast forecast(const io::Scene& scene, Model<D>& model, tasks::Executor& exec
     fluid::StepLimits limits;
     for (std::size_t block = 0; block < fluid.blocks(); ++block)
         limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
-                                             fluid.viscosity_of_step()));
+                                             fluid.viscous_rate()));
     const bool css = scene.coupling.algorithm == io::CouplingAlgorithm::css;
     made.step = (model.interface && !css ? scene.coupling.step_fraction : 1) * limits.step();
     made.steps = std::ceil(scene.end_time / made.step);

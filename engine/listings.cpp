@@ -100,7 +100,7 @@ class Listing {
         add(tasks::fluxes(fluid, name));
         if (fluid.viscosity.dynamic > 0) add(tasks::viscosity(fluid, name));
         if (model_.flux_walls) {
-            if (fluid.viscosity.dynamic > 0 && fluid.wall_friction > 1)
+            if (fluid.viscosity.dynamic > 0 && fluid.wall_friction > 0)
                 add(tasks::wall_friction(fluid, *model_.flux_walls, name));
             add(tasks::wall_fluxes(fluid, *model_.flux_walls, name));
         }
@@ -128,6 +128,7 @@ class Listing {
             add(tasks::x_sph(fluid, name));
         } else {
             add(tasks::free_surface(fluid, name));
+            if (model_.flux_walls) add(tasks::wall_crowding(fluid, *model_.flux_walls, name));
             add(tasks::shifting(fluid, name));
         }
         if (model_.walls && model_.walls->periodic.any()) add(tasks::ghost_shift(fluid, *model_.walls, name));

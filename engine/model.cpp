@@ -113,8 +113,8 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene) {
         fluid::NormalFluxWalls<D>& walls = model->flux_walls.emplace();
         add_walls(scene, walls.panels);
         model->moving = moving_walls(scene, walls.panels);
-        if (!model->fluid->flux.is_riemann()) walls.pressure = fluid::WallPressure::extrapolated;
-        model->fluid->wall_friction = fluid::friction_factor(walls.panels, scene.fluid->support_ratio);
+        model->fluid->wall_friction =
+            fluid::wall_decay(walls.panels, scene.fluid->support_ratio, scene.fluid->viscous_operator);
         add_wall_works(scene, *model);
     } else if (!scene.walls.empty() || scene.solid || !scene.periodic.empty()) {
         fluid::GhostWalls<D>& walls = model->walls.emplace();

@@ -16,6 +16,7 @@
 #include "engine/diagnosis.hpp"
 #include "engine/listings.hpp"
 #include "engine/results.hpp"
+#include "engine/sharp_corners.hpp"
 #include "engine/staggering.hpp"
 #include "engine/stop_request.hpp"
 #include "engine/trace_summary.hpp"
@@ -120,7 +121,10 @@ class Run {
     ExitCode whole() {
         if (from_) restore();
         if constexpr (D == 2)
-            if (!from_) warn_of_staggering();
+            if (!from_) {
+                warn_of_staggering();
+                warn_of_corners();
+            }
         const StopSignals signals;
         begin_ = std::chrono::steady_clock::now();
         const RunEnd end = computed(signals);
@@ -192,6 +196,12 @@ class Run {
         });
         results_.history_if_due();
         results_.frame_if_due();
+    }
+
+    void warn_of_corners() requires(D == 2) {
+        if (!model_->walls) return;
+        for (const std::string& corner : sharp_corners(model_->walls->panels))
+            err_ << "aquagraph: warning: " << corner << "\n";
     }
 
     // Bodies with many nodes are left to `check`: their modes take longer than a user should wait for a warning.

@@ -125,8 +125,8 @@ std::vector<SceneKey> all_keys() {
         {"fluid", "cfl", K::number, false, "", open_below(0, 1), "", "rk4: 0.375, rk3: 0.35, verlet: 0.15",
          "K of Δt = K R/c"},
         {"fluid", "walls", K::choice, false, "", any, "ghosts normal_flux", "ghosts",
-         "particles mirrored through the walls, or fluxes through their surface; the latter for riemann alone, "
-         "viscosity by morris"},
+         "particles mirrored through the walls, or fluxes through their surface; the latter not for "
+         "artificial_viscosity, and for delta_sph with alpha of 0.2 or more"},
         {"fluid", "initial_pressure", K::choice, false, "", any, "hydrostatic zero", "hydrostatic",
          "pressure at t = 0"},
         {"fluid", "surface_level", K::number, false, "m", any, "", "highest top of the water",

@@ -49,13 +49,24 @@ Task wall_gradients(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, co
 }
 
 template <int D>
+Task wall_crowding(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label) {
+    return {.name = "wall crowding (" + label + ")",
+            .reads = {resource::fluid_lists, resource::wall_gamma, resource::wall_moments},
+            .writes = {resource::fluid_surface},
+            .body = [&fluid, &walls] {
+                for_each_block(fluid.blocks(),
+                               [&](std::size_t block) { walls.complete_crowding(fluid.surface, block); });
+            }};
+}
+
+template <int D>
 Task wall_friction(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label) {
     return {.name = "wall friction (" + label + ")",
             .reads = {resource::walls, resource::fluid_lists, resource::fluid_state},
             .writes = {resource::fluid_rates},
             .body = [&fluid, &walls] {
                 for_each_block(fluid.blocks(), [&](std::size_t block) {
-                    walls.add_shear(fluid.particles, fluid.kernel, fluid.viscosity.dynamic, fluid.spacing, block);
+                    walls.add_shear(fluid.particles, fluid.kernel, fluid.viscosity, fluid.spacing, block);
                     report_work(walls.pairs(block));
                 });
             }};
@@ -65,7 +76,7 @@ template <int D>
 Task wall_fluxes(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label) {
     return {.name = "wall fluxes (" + label + ")",
             .reads = {resource::walls, resource::wall_gamma, resource::wall_moments, resource::fluid_lists,
-                      resource::fluid_state, resource::fluid_gradients},
+                      resource::fluid_state, resource::fluid_gradients, resource::fluid_shift},
             .writes = {resource::fluid_rates},
             .body = [&fluid, &walls] {
                 for_each_block(fluid.blocks(), [&](std::size_t block) {
@@ -118,6 +129,8 @@ template Task wall_motion(fluid::NormalFluxWalls<2>&, const fluid::MovingWalls<2
                           const Clock&, double, const std::string&);
 template Task wall_motion(fluid::NormalFluxWalls<3>&, const fluid::MovingWalls<3>*, const coupling::Interface*,
                           const Clock&, double, const std::string&);
+template Task wall_crowding(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
+template Task wall_crowding(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
 template Task wall_friction(fluid::Fluid<2>&, fluid::NormalFluxWalls<2>&, const std::string&);
 template Task wall_friction(fluid::Fluid<3>&, fluid::NormalFluxWalls<3>&, const std::string&);
 template Task energy_ledger(fluid::Fluid<2>&, const fluid::NormalFluxWalls<2>&, std::vector<fluid::WallWork<2>>&,

@@ -21,6 +21,9 @@ Task wall_gamma(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const 
 // After the gradients.
 template <int D>
 Task wall_gradients(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
+// Between free_surface and shifting.
+template <int D>
+Task wall_crowding(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
 // Between fluxes (and viscosity) and wall_fluxes, which divide all of them by γ.
 template <int D>
 Task wall_friction(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);

@@ -18,7 +18,7 @@ fluid::StepLimits largest_step(const fluid::Fluid<D>& fluid, std::vector<fluid::
         fluid.blocks(), fluid::StepLimits{},
         [&](std::size_t block) {
             return step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
-                               fluid.viscosity_of_step());
+                               fluid.viscous_rate());
         },
         fluid::combine, std::span<fluid::StepLimits>(scratch), blocks_without_pairs);
 }

@@ -89,7 +89,7 @@ class WaterBlock {
             std::vector<Block> of(fluid.blocks());
             loop(fluid.blocks(), [&](std::size_t block) {
                 const auto lanes = fluid.lanes(block);
-                of[block] = {step_limits(s, fluid.cfl, fluid.kernel.radius(), lanes, fluid.kinematic_viscosity()),
+                of[block] = {step_limits(s, fluid.cfl, fluid.kernel.radius(), lanes, fluid.viscous_rate()),
                              fluid::travel(s, lanes)};
             });
             fluid::StepLimits limits;

@@ -32,8 +32,8 @@ struct Fluid {
     Viscosity viscosity{};  // µ = 0: none
     Transport transport = Transport::none;
     double x_sph = 0.5;  // ε
-    // Friction on walls of normal fluxes decays by that much faster than viscosity inside (walls/normal_flux.hpp).
-    double wall_friction = 1;
+    // Besides viscous_decay, at walls of normal fluxes (walls/normal_flux.hpp) [µ/(ρ R²)]; 0: none is no-slip.
+    double wall_friction = 0;
 
     Particles<D> particles;
     NeighbourLists<D> lists;
@@ -63,7 +63,11 @@ struct Fluid {
     }
     GradientsOf gradients() const { return {flux.reads_pressure_gradient(), flux.reads_velocity_gradient()}; }
     double kinematic_viscosity() const { return viscosity.dynamic / tait.reference_density; }
-    double viscosity_of_step() const { return wall_friction * kinematic_viscosity(); }  // time_step.hpp
+    // Inverse of the largest step that viscosity allows for [1/s].
+    double viscous_rate() const {
+        return (viscous_decay(viscosity.form) + wall_friction) * kinematic_viscosity() /
+               (kernel.radius() * kernel.radius() * integration.decay_of_step());
+    }
 
     std::size_t blocks() const { return particles.blocks(); }
     LaneRange lanes(std::size_t block) const { return lanes_of_block(particles, block); }

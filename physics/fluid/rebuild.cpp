@@ -34,6 +34,7 @@ template <int D>
 void make_lists(Fluid<D>& fluid, NormalFluxWalls<D>* walls, BlockLoop loop) {
     walls->rebuild(fluid.particles, fluid.spacing, fluid.lists.reach(), loop);
     fluid.search.build(fluid.particles, fluid.lists, &walls->sight, loop);
+    if (fluid.transport == Transport::shifting) fluid.surface.resize(fluid.particles);
 }
 
 template <int D, class Walls>

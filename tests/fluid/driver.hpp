@@ -146,7 +146,7 @@ class Driver {
         StepLimits limits;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
             limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
-                                                 fluid.kinematic_viscosity()));
+                                                 fluid.viscous_rate()));
         return limits.step();
     }
 

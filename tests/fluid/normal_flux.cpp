@@ -486,7 +486,7 @@ TEST_CASE("Poiseuille's slope at the wall brakes by its shear stress") {
         s.acceleration[0][i] = s.acceleration[1][i] = 0;
     }
     for (std::size_t block = 0; block < driver.fluid.blocks(); ++block)
-        driver.walls.add_shear(s, driver.fluid.kernel, viscosity, spacing, block);
+        driver.walls.add_shear(s, driver.fluid.kernel, {viscosity, ViscousOperator::morris}, spacing, block);
     double force = 0;
     for (std::size_t i = 0; i < s.count; ++i) force += s.mass[i] * s.acceleration[0][i];
     CHECK(force == doctest::Approx(-viscosity * slope * 0.4).epsilon(0.02));

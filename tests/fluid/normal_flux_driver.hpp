@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 
+#include "physics/fluid/shifting.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
 #include "tests/fluid/driver.hpp"
 #include "tests/fluid/fixtures.hpp"
@@ -29,7 +30,7 @@ class FluxDriver {
         built_ = walls.panels.position;
     }
 
-    void rates(double at, BlockLoop loop = serial_loop) {
+    void rates(double at, BlockLoop loop = serial_loop, bool first = true) {
         auto& s = fluid.particles;
         if (motion) {
             motion(walls.panels, at);
@@ -47,11 +48,22 @@ class FluxDriver {
         if (walls.is_periodic())
             loop(walls.images.blocks(),
                  [&](std::size_t block) { walls.images.update_gradients(s, Vec<D>(fluid.flux.gravity), block); });
+        if (first && fluid.transport == Transport::shifting) {
+            loop(fluid.blocks(), [&](std::size_t block) {
+                detect_free_surface(s, fluid.lists, fluid.kernel, fluid.surface, fluid.lanes(block));
+            });
+            loop(fluid.blocks(), [&](std::size_t block) { walls.complete_crowding(fluid.surface, block); });
+            loop(fluid.blocks(), [&](std::size_t block) {
+                compute_shift(s, fluid.lists, fluid.kernel, fluid.surface, fluid.lanes(block));
+            });
+            if (walls.is_periodic())
+                loop(walls.images.blocks(), [&](std::size_t block) { walls.images.update_shift(s, block); });
+        }
         loop(fluid.blocks(), [&](std::size_t block) {
             compute_fluxes(s, fluid.lists, fluid.kernel, fluid.flux, fluid.tait, fluid.lanes(block));
             if (fluid.viscosity.dynamic > 0) {
                 add_viscosity(s, fluid.lists, fluid.kernel, fluid.viscosity, fluid.lanes(block));
-                walls.add_shear(s, fluid.kernel, fluid.viscosity.dynamic, fluid.spacing, block);
+                walls.add_shear(s, fluid.kernel, fluid.viscosity, fluid.spacing, block);
             }
             walls.add_fluxes(s, fluid.kernel, fluid.flux, fluid.tait.reference_density, block);
         });
@@ -60,7 +72,7 @@ class FluxDriver {
     void step(double dt, BlockLoop loop = serial_loop) {
         if (!lists_hold(dt)) rebuild(loop);
         for (int stage = 0; stage < fluid.integration.stages(); ++stage) {
-            rates(time + fluid.integration.stage_time(stage) * dt, loop);
+            rates(time + fluid.integration.stage_time(stage) * dt, loop, stage == 0);
             if (fluid.ledger.kept) {
                 fluid.ledger.part.assign(1, energies());
                 fluid.ledger.accumulate(fluid.integration.scheme, stage, dt);
@@ -88,7 +100,7 @@ class FluxDriver {
         StepLimits limits;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
             limits = combine(limits, step_limits(fluid.particles, fluid.cfl, fluid.kernel.radius(), fluid.lanes(block),
-                                                 fluid.viscosity_of_step()));
+                                                 fluid.viscous_rate()));
         return limits.step();
     }
 

@@ -202,6 +202,7 @@ void NormalFluxWalls<D>::complete_with(Particles<D>& s, const NeighbourLists<D>&
         if (disorder > tolerated) C0 *= tolerated / disorder;
         for (int a = 0; a < D; ++a) {
             b.C0[k * D + std::size_t(a)] = open * C0[a];
+            b.normals[k * D + std::size_t(a)] = wall.zeroth[a];
             for (int c = 0; c < D; ++c) b.C1[(k * D + std::size_t(a)) * D + std::size_t(c)] = open * C1(a, c);
         }
     }
@@ -222,7 +223,7 @@ void NormalFluxWalls<D>::add_fluxes_with(Particles<D>& s, const K& kernel, const
     for (std::size_t k = 0; k < b.near.size(); ++k) {
         const std::size_t i = b.near[k].particle;
         const double gamma = gamma_[i], rho = reference_density + s.deviation[i], inverse_rho = s.volume[i] / s.mass[i];
-        WallFlux<D> own(s, i, parameters, pressure, inverse_rho);
+        WallFlux<D> own(s, i, parameters, inverse_rho);
         const Range range = points_of(b, k);
         const std::uint32_t* const list = &b.point[range.begin];
         const std::size_t n = range.end - range.begin;
@@ -243,19 +244,35 @@ void NormalFluxWalls<D>::add_fluxes_with(Particles<D>& s, const K& kernel, const
             for (int c = 0; c < D; ++c)
                 rate -=
                     b.C1[(k * D + std::size_t(a)) * D + std::size_t(c)] * s.grad_v[std::size_t(a)][std::size_t(c)][i];
+        const double gain = s.has_mass_exchange ? s.mass_rate[i] / s.mass[i] : 0.0;  // of mass, which no γ divides
+        if (s.has_mass_exchange)
+            for (int a = 0; a < D; ++a) rate -= 2 * s.shift[a][i] * b.normals[k * D + std::size_t(a)];
         s.deviation_rate[i] = -rho * rate / gamma;
         for (int a = 0; a < D; ++a) {
+            const double carried = gain * s.v[a][i];
             double correction = 2 * s.p[i] * b.C0[k * D + std::size_t(a)];
             for (int c = 0; c < D; ++c)
                 correction += b.C1[(k * D + std::size_t(a)) * D + std::size_t(c)] * s.grad_p[std::size_t(c)][i];
-            const double pairs = s.acceleration[a][i] - parameters.gravity[a];
+            const double pairs = s.acceleration[a][i] - parameters.gravity[a] - carried;
             const double all = (pairs + inverse_rho * (add_lanes(force[a]) + correction)) / gamma;
-            s.acceleration[a][i] = parameters.gravity[a] + all;
+            s.acceleration[a][i] = parameters.gravity[a] + all + carried;
             b.reaction[k * D + std::size_t(a)] = s.mass[i] * (all - pairs) + b.friction[k * D + std::size_t(a)];
         }
     }
 }
 
+template <int D>
+void NormalFluxWalls<D>::complete_crowding(FreeSurface<D>& surface, std::size_t block) const {
+    const NearBlock& b = near_[block];
+    for (std::size_t k = 0; k < b.near.size(); ++k)
+        for (std::size_t d = 0; d < D; ++d) {
+            double& crowding = surface.crowding[d][b.near[k].particle];
+            crowding = (crowding + b.normals[k * D + d]) / gamma_[b.near[k].particle];
+        }
+}
+
+template void NormalFluxWalls<2>::complete_crowding(FreeSurface<2>&, std::size_t) const;
+template void NormalFluxWalls<3>::complete_crowding(FreeSurface<3>&, std::size_t) const;
 template void NormalFluxWalls<2>::compute_gamma(const Particles<2>&, const Kernel<2>&, std::size_t);
 template void NormalFluxWalls<3>::compute_gamma(const Particles<3>&, const Kernel<3>&, std::size_t);
 template void NormalFluxWalls<2>::complete_gradients(Particles<2>&, const NeighbourLists<2>&, const Kernel<2>&,

@@ -28,6 +28,17 @@
 //   panel has the γ of one on it.
 // - Near an open support (fullness < 0.75) p_s bears no tension: jets do not stick to walls.
 //
+// With mass exchange (schemes/ale_pair.hpp) the face at a wall moves with it, v0 = v_w: nothing passes. Between
+// particles the exchanged mass is not divided by γ_i: what one gives the other gets, and the total is kept to rounding.
+// The rates of density and velocity that go with it are divided, and density has the shift's 2 ρ δv_i·Σ_s n_s W_is A_s;
+// volumes follow as m/ρ, so that uniform water stays uniform whatever mass its particles have.
+//
+// Schemes: the wall points of δ-SPH are those of the Riemann schemes, p_s is the partial Riemann problem's (De Leffe et
+// al. 2009); its diffusion of density has no part at walls, since it vanishes where p is linear. It is the diffusion
+// that keeps water still next to these walls, as Mayrhofer et al. (2013) found for theirs, with enough viscosity:
+// how much is in damping.hpp. Artificial viscosity alone has none and
+// does not (io/scene_validation.cpp refuses it).
+//
 // The fullness λ of gradients.hpp would take the wall for a free surface. The moment that is missing behind the wall
 // is known, (1 - γ) 1 + Σ_s n_s ⊗ x_is W_is A_s, and is added before the eigenvalue is taken: λ = 1 where water fills
 // the support up to the wall. Gradients whose own moment is too poor (λ < 0.2, sharp corners) are completed with the
@@ -54,29 +65,17 @@
 
 #include "physics/fluid/energy_ledger.hpp"
 #include "physics/fluid/fluxes.hpp"
+#include "physics/fluid/free_surface.hpp"
 #include "physics/fluid/walls/escape.hpp"
 #include "physics/fluid/walls/gamma.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
 #include "physics/fluid/walls/sight.hpp"
+#include "physics/fluid/walls/wall_friction.hpp"
 #include "physics/fluid/walls/wall_points.hpp"
 
 namespace aquagraph::fluid {
 
 inline constexpr double least_gamma = 0.05;
-
-// What the wall point's pressure is made of: the partial Riemann problem for Riemann schemes, or, for schemes whose
-// pairs have no Riemann problem (δ-SPH, artificial viscosity), p_s = p_i + ρ_i g·x_is.
-enum class WallPressure { riemann, extrapolated };
-
-// By how much friction on no-slip panels decays faster than the 16 µ/(ρ R²) that the viscous time step 0.125 ρ R²/µ
-// allows for (its rate times the step then is 2): next to a flat wall Σ_s W_is A_s = 1.5/R and γ = ½, which makes
-// 6 µ/(ρ R h), and pairs add 15 µ/(ρ R²); h is at least half a spacing. 1 where no panel is no-slip.
-template <int D>
-double friction_factor(const Panels<D>& panels, double support_ratio) {
-    for (const Panel<D>& panel : panels.panels)
-        if (panel.no_slip) return (12 * support_ratio + 15) / 16;
-    return 1;
-}
 
 template <int D>
 class NormalFluxWalls {
@@ -85,7 +84,6 @@ class NormalFluxWalls {
     GhostWalls<D> images;  // of particles in a periodic domain: without panels
     WallPoints<D> points;
     Sight<D> sight;
-    WallPressure pressure = WallPressure::riemann;
     std::size_t floor_count = 0;  // how often γ has met its floor: summed up by whoever calls compute_gamma
 
     // Repeats the walls in the periodic directions; once, when all panels are there. Throws std::invalid_argument for a
@@ -110,14 +108,16 @@ class NormalFluxWalls {
     // After the gradients: completes fullness and gradients, and computes C0 and C1. Reads γ.
     void complete_gradients(Particles<D>& particles, const NeighbourLists<D>& lists, const Kernel<D>& kernel,
                             const FluxParameters& parameters, std::size_t block);
+    // Where particles are shifted, between detect_free_surface and compute_shift: k_i = (Σ_j ∇W_ij ω_j + Σ_s n_s W_is
+    // A_s)/γ_i, so that particles are not driven into walls. Reads what complete_gradients has computed.
+    void complete_crowding(FreeSurface<D>& surface, std::size_t block) const;
     // After the pair fluxes: adds the wall's and divides both by γ.
     void add_fluxes(Particles<D>& particles, const Kernel<D>& kernel, const FluxParameters& parameters,
                     double reference_density, std::size_t block);
-    // For walls that water sticks to (Panel::no_slip), before add_fluxes, which divides by γ: the shear stress
-    // µ ∂v/∂n ≈ µ (v_i - v_w)/h of every wall point (Ferrand et al. 2013), h the distance from its panel, at least
-    // half a spacing:   m_i dv_i/dt -= ω_i Σ_s 2 µ (v_i - v_w)_tangential/h W_is A_s.
-    // Explicit steps must be shorter by friction_factor().
-    void add_shear(Particles<D>& particles, const Kernel<D>& kernel, double viscosity, double spacing,
+    // For walls that water sticks to (Panel::no_slip), before add_fluxes, which divides by γ: m_i dv_i/dt += ω_i Σ_s of
+    // wall_friction.hpp, with the shear (v_i - v_w)_tangential/h, h the distance from the panel, at least half a
+    // spacing. It takes part in the time step (wall_decay).
+    void add_shear(Particles<D>& particles, const Kernel<D>& kernel, const Viscosity& viscosity, double spacing,
                    std::size_t block);
 
     // Forces of the fluid on the vertices of all panels [N] ([N/m] in 2D), by linear shape functions at the points;
@@ -170,6 +170,7 @@ class NormalFluxWalls {
         std::vector<std::uint32_t> point;  // whole clusters of W
         std::vector<std::int32_t> piece;   // what γ is made of: k: panel k, ~s: cell s
         Scalars C0, C1;                    // D and D × D of each particle
+        Scalars normals;                   // Σ_s n_s W_is A_s, D of each particle
         Scalars friction;                  // D of each particle: what add_shear has last done to its momentum
         Scalars reaction;                  // D of each particle: rate of momentum beside the symmetric pair forces
         std::uint64_t pairs = 0;
@@ -186,7 +187,8 @@ class NormalFluxWalls {
     void add_fluxes_with(Particles<D>& particles, const K& kernel, const FluxParameters& parameters,
                          double reference_density, std::size_t block);
     template <class K>
-    void add_shear_with(Particles<D>& particles, const K& kernel, double viscosity, double spacing, std::size_t block);
+    void add_shear_with(Particles<D>& particles, const K& kernel, const Viscosity& viscosity, double spacing,
+                        std::size_t block);
     template <class K>
     void add_reactions_with(const Particles<D>& particles, const K& kernel, const FluxParameters& parameters,
                             std::vector<Vec<D>>& vertex_forces) const;
@@ -218,7 +220,7 @@ class NormalFluxWalls {
     };
     template <class K>
     WallEnergies wall_energies(const NearBlock& block, std::size_t k, const Particles<D>& particles, const K& kernel,
-                               const FluxParameters& parameters, double viscosity, double spacing) const;
+                               const FluxParameters& parameters, const Viscosity& viscosity, double spacing) const;
     // Minus the reactions of these particles times the velocity of the wall, added up by wall.
     void add_powers(const NearBlock& block, std::size_t k, const Particles<D>& particles, const Kernel<D>& kernel,
                     const FluxParameters& parameters, std::span<double> of_wall) const;

@@ -8,11 +8,12 @@ template <class K>
 typename NormalFluxWalls<D>::WallEnergies NormalFluxWalls<D>::wall_energies(const NearBlock& b, std::size_t k,
                                                                             const Particles<D>& s, const K& kernel,
                                                                             const FluxParameters& parameters,
-                                                                            double viscosity, double spacing) const {
+                                                                            const Viscosity& viscosity,
+                                                                            double spacing) const {
     const PointFields<D> fields(points);
     const std::size_t i = b.near[k].particle;
     const Range range = points_of(b, k);
-    WallFlux<D> own(s, i, parameters, pressure, s.volume[i] / s.mass[i]), at_rest = own;
+    WallFlux<D> own(s, i, parameters, s.volume[i] / s.mass[i]), at_rest = own;
     own.lower_impedance(fields, &b.point[range.begin], range.end - range.begin, kernel, gamma_[i]);
     at_rest.impedance = 0;  // p_s is then p_L
     WallEnergies sum;
@@ -23,10 +24,12 @@ typename NormalFluxWalls<D>::WallEnergies NormalFluxWalls<D>::wall_energies(cons
         own(fields, point, kernel, weight, p_s, dilation);
         at_rest(fields, point, kernel, weight, p_L, dilation);
         sum.dissipated -= (p_s - p_L) * dilation;
-        if (viscosity == 0 || !panels.panels[std::size_t(points.cell[point].panel)].no_slip) continue;
+        if (viscosity.dynamic == 0 || !panels.panels[std::size_t(points.cell[point].panel)].no_slip) continue;
         Vec<D> slip;
         for (int d = 0; d < D; ++d) slip[d] = s.v[std::size_t(d)][i] - points.velocity[std::size_t(d)][point];
-        sum.heat += 2 * viscosity * weight * shear_rate(s, i, point, spacing).dot(slip);
+        sum.heat -= wall_friction<D>(kernel, viscosity, points.place(point) - place(s, i), points.outward(point),
+                                     points.area[point], shear_rate(s, i, point, spacing))
+                        .dot(slip);
     }
     return sum;
 }
@@ -51,8 +54,7 @@ EnergyRates NormalFluxWalls<D>::energy_rates(const Particles<D>& s, const Neighb
         WallEnergies walls;
         if (near < b.near.size() && b.near[near].particle == i) {
             for (std::size_t d = 0; d < D; ++d) motion += s.v[d][i] * b.reaction[near * D + d];
-            kernel.visit(
-                [&](const auto& k) { walls = wall_energies(b, near, s, k, parameters, viscosity.dynamic, spacing); });
+            kernel.visit([&](const auto& k) { walls = wall_energies(b, near, s, k, parameters, viscosity, spacing); });
             add_powers(b, near, s, kernel, parameters, of_wall);
             ++near;
         }

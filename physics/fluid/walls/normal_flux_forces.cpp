@@ -35,14 +35,14 @@ Vec<D> NormalFluxWalls<D>::shear_rate(const Particles<D>& s, std::size_t i, std:
 }
 
 template <int D>
-void NormalFluxWalls<D>::add_shear(Particles<D>& s, const Kernel<D>& kernel, double viscosity, double spacing,
+void NormalFluxWalls<D>::add_shear(Particles<D>& s, const Kernel<D>& kernel, const Viscosity& viscosity, double spacing,
                                    std::size_t block) {
     kernel.visit([&](const auto& k) { add_shear_with(s, k, viscosity, spacing, block); });
 }
 
 template <int D>
 template <class K>
-void NormalFluxWalls<D>::add_shear_with(Particles<D>& s, const K& kernel, double viscosity, double spacing,
+void NormalFluxWalls<D>::add_shear_with(Particles<D>& s, const K& kernel, const Viscosity& viscosity, double spacing,
                                         std::size_t block) {
     NearBlock& b = near_[block];
     for (std::size_t k = 0; k < b.near.size(); ++k) {
@@ -53,12 +53,12 @@ void NormalFluxWalls<D>::add_shear_with(Particles<D>& s, const K& kernel, double
         for (std::size_t q = range.begin; q < range.end; ++q) {
             const std::size_t point = b.point[q];
             if (point == points.size() || !panels.panels[std::size_t(points.cell[point].panel)].no_slip) continue;
-            sum += 2 * viscosity * kernel.value((points.place(point) - x).norm()) * points.area[point] *
-                   shear_rate(s, i, point, spacing);
+            sum += wall_friction<D>(kernel, viscosity, points.place(point) - x, points.outward(point),
+                                    points.area[point], shear_rate(s, i, point, spacing));
         }
         for (int d = 0; d < D; ++d) {
-            s.acceleration[std::size_t(d)][i] -= s.volume[i] / s.mass[i] * sum[d];
-            b.friction[k * D + std::size_t(d)] = -s.volume[i] * sum[d];
+            s.acceleration[std::size_t(d)][i] += s.volume[i] / s.mass[i] * sum[d];
+            b.friction[k * D + std::size_t(d)] = s.volume[i] * sum[d];
         }
     }
 }
@@ -89,7 +89,7 @@ void NormalFluxWalls<D>::each_reaction(const NearBlock& b, std::size_t k, const 
     const std::size_t i = b.near[k].particle;
     Vec<D> rest;
     for (int d = 0; d < D; ++d) rest[d] = -b.reaction[k * D + std::size_t(d)];
-    const WallFlux<D> own(s, i, parameters, pressure, s.volume[i] / s.mass[i]);
+    const WallFlux<D> own(s, i, parameters, s.volume[i] / s.mass[i]);
     const Range range = points_of(b, k);
     // First the pressure on each point, then the rest on all by weight.
     double weights = 0, weight = 0, p_s = 0, dilation = 0;
@@ -154,7 +154,7 @@ void NormalFluxWalls<D>::add_pressure_forces_with(const Particles<D>& s, const K
     for (const NearBlock& b : near_)
         for (std::size_t k = 0; k < b.near.size(); ++k) {
             const std::size_t i = b.near[k].particle;
-            WallFlux<D> own(s, i, parameters, pressure, s.volume[i] / s.mass[i]);
+            WallFlux<D> own(s, i, parameters, s.volume[i] / s.mass[i]);
             const Range range = points_of(b, k);
             own.lower_impedance(fields, &b.point[range.begin], range.end - range.begin, kernel, gamma_[i]);
             own.impedance *= 0.5;  // below, p_s is then ½ (p_L + p_s)
@@ -205,8 +205,8 @@ template Vec<2> NormalFluxWalls<2>::shear_rate(const Particles<2>&, std::size_t,
 template Vec<3> NormalFluxWalls<3>::shear_rate(const Particles<3>&, std::size_t, std::size_t, double) const;
 template void NormalFluxWalls<2>::add_to_vertices(std::size_t, const Vec<2>&, std::vector<Vec<2>>&) const;
 template void NormalFluxWalls<3>::add_to_vertices(std::size_t, const Vec<3>&, std::vector<Vec<3>>&) const;
-template void NormalFluxWalls<2>::add_shear(Particles<2>&, const Kernel<2>&, double, double, std::size_t);
-template void NormalFluxWalls<3>::add_shear(Particles<3>&, const Kernel<3>&, double, double, std::size_t);
+template void NormalFluxWalls<2>::add_shear(Particles<2>&, const Kernel<2>&, const Viscosity&, double, std::size_t);
+template void NormalFluxWalls<3>::add_shear(Particles<3>&, const Kernel<3>&, const Viscosity&, double, std::size_t);
 template void NormalFluxWalls<2>::add_reactions(const Particles<2>&, const Kernel<2>&, const FluxParameters&,
                                                 std::vector<Vec<2>>&) const;
 template void NormalFluxWalls<3>::add_reactions(const Particles<3>&, const Kernel<3>&, const FluxParameters&,

@@ -178,8 +178,9 @@ void NormalFluxWalls<D>::collect(const Particles<D>& particles, double reach, st
                             !open && sees_an_end(x, reach, out.piece, first_piece)});
     }
     const std::size_t n = out.near.size();
-    for (Scalars* values : {&out.C0, &out.C1, &out.friction, &out.reaction}) values->clear();
+    for (Scalars* values : {&out.C0, &out.C1, &out.normals, &out.friction, &out.reaction}) values->clear();
     out.C0.resize(n * D);
+    out.normals.resize(n * D);
     out.C1.resize(n * D * D);
     out.friction.resize(n * D);
     out.reaction.resize(n * D);

@@ -42,14 +42,13 @@ struct WallFlux {
     double most_pressure;   // limit of |p_L - p_i|: 0.01 ρ c²
     double least_pressure;  // of p_s
 
-    WallFlux(const Particles<D>& s, std::size_t i, const FluxParameters& parameters, WallPressure pressure,
-             double inverse_density)
+    WallFlux(const Particles<D>& s, std::size_t i, const FluxParameters& parameters, double inverse_density)
         : p(s.p[i]),
-          impedance(pressure == WallPressure::riemann ? s.impedance[i] : 0),
+          impedance(s.impedance[i]),
           sound_speed(s.impedance[i] * inverse_density),
           most_pressure(0.01 * s.impedance[i] * sound_speed),
           least_pressure(s.fullness[i] < fullness_of_interior ? 0.0 : -std::numeric_limits<double>::max()) {
-        const bool reconstruct = pressure == WallPressure::riemann && parameters.muscl;
+        const bool reconstruct = parameters.muscl || !parameters.is_riemann();
         for (std::size_t d = 0; d < D; ++d) {
             x[d] = s.x[d][i];
             v[d] = s.v[d][i];
