@@ -73,7 +73,7 @@ class Lattice {
         }
         reorder_.apply(particles_, order_.sort(particles_.x, count, 1.0));
         lists_.radius = radius;
-        lists_.skin = fluid::skin_ratio * radius;
+        lists_.skin = fluid::skin_ratio<D>(true) * radius;
     }
 
     PassSpeed measure() {
@@ -223,8 +223,7 @@ std::string processor() {
 
 std::string title(const char* name, const char* heading, int threads) {
     return fmt::format(
-        "## {}\n\nWritten by `aquagraph-measure`; to repeat:\n\n    ./aquagraph build aquagraph-measure && "
-        "build/release/benchmarks/aquagraph-measure --only {}\n\nMachine: {}, {} threads; compiler GCC {}.\n\n",
+        "## {}\n\nWritten by `./aquagraph measure --only {}`.\n\nMachine: {}, {} threads; compiler GCC {}.\n\n",
         heading, name, processor(), threads, __VERSION__);
 }
 
@@ -234,7 +233,7 @@ std::string passes(int threads) {
                "One core, double precision, disturbed lattice; the yardstick is `benchmarks/speed/pair_flux_limit.cpp` "
                "(its best form, lists without skin; ours are pruned to a skin of {:g} R). The search makes lists for a "
                "run, with a skin of {:g} R; pruning makes those of a step. Medians of {} alternating rounds.\n\n",
-               skin_of_step, fluid::skin_ratio, rounds) +
+               skin_of_step, fluid::skin_ratio<2>(true), rounds) +
            pass_table();
 }
 
