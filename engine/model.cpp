@@ -47,7 +47,8 @@ fluid::Fluid<D> make_fluid(const io::Scene& scene) {
     made.ledger.kept = scene.output.energy_ledger;
     made.prepare_particles();
     made.lists.radius = made.kernel.radius();
-    made.lists.skin = fluid::skin_ratio * made.kernel.radius();
+    const bool walls = !scene.walls.empty() || scene.solid || !scene.periodic.empty();
+    made.lists.skin = fluid::skin_ratio<D>(walls) * made.kernel.radius();
     return made;
 }
 

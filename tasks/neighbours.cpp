@@ -60,19 +60,17 @@ class NeighbourSearchTask {
     }
     double walls_travel() const { return walls_ ? walls_distance(walls_->panels.position) : 0; }
 
-    // Two particles, or a particle and the mirror image of another, come closer by at most twice the largest
-    // displacement of particles plus twice that of walls. The coming step is counted in.
     bool lists_hold(const fluid::Travel& travel) const {
         const std::vector<fluid::Vec<D>>& built = fluid_.record.walls;
         if (!fluid_.record.made) return false;
-        double moved = travel.so_far() + travel.of_step(clock_.step);
+        double moved = 0;
         if (walls_) {
             double wall2 = 0;
             for (std::size_t k = 0; k < built.size(); ++k)
                 wall2 = std::max(wall2, (walls_->panels.position[k] - built[k]).squaredNorm());
-            moved += std::max(std::sqrt(wall2), walls_distance(built));
+            moved = std::max(std::sqrt(wall2), walls_distance(built));
         }
-        return moved < 0.5 * fluid_.lists.skin;
+        return fluid::lists_hold(fluid_, walls_, travel, {clock_.step, moved}, parallel_loop);
     }
 
     void rebuild() {

@@ -48,7 +48,7 @@ class WaterBlock {
                 .surface = {},
                 .ledger = {}} {
         fluid.lists.radius = fluid.kernel.radius();
-        fluid.lists.skin = fluid::skin_ratio * fluid.lists.radius;
+        fluid.lists.skin = fluid::skin_ratio<D>(false) * fluid.lists.radius;
         std::size_t count = 1;
         for (int d = 0; d < D; ++d) count *= n;
         auto& s = fluid.particles;
@@ -99,7 +99,8 @@ class WaterBlock {
                 travel = largest(travel, block.travel);
             }
             dt = limits.step();
-            if (travel.so_far() + travel.of_step(dt) >= 0.5 * fluid.lists.skin) rebuild(loop);
+            const fluid::GhostWalls<D>* none = nullptr;
+            if (!lists_hold(fluid, none, travel, {dt, 0}, loop)) rebuild(loop);
             prune(s, fluid.lists, skin_of_step(travel, dt, 0, fluid.lists.radius), loop);
         });
         for (int stage = 0; stage < fluid.integration.stages(); ++stage) {

@@ -72,8 +72,8 @@ void ClusterGrid<D>::build(const Particles<D>& particles, double reach, BlockLoo
     origin_.fill(std::numeric_limits<double>::max());
     end_.fill(std::numeric_limits<double>::lowest());
     half_.fill(0);
-    const auto enter = [&](const Box& box, std::size_t cluster) {
-        entries_.push_back({box, std::uint32_t(cluster)});
+    const auto enter = [&](const Box& box, LaneRange lanes) {
+        entries_.push_back({box, std::uint32_t(lanes.begin), std::uint32_t(lanes.end)});
         for (int d = 0; d < D; ++d) {
             const double centre = 0.5 * (box.low[d] + box.high[d]);
             origin_[d] = std::min(origin_[d], centre);
@@ -82,13 +82,15 @@ void ClusterGrid<D>::build(const Particles<D>& particles, double reach, BlockLoo
         }
     };
     for (std::size_t c = 0; c < clusters; ++c) {
+        if (c == particles.clusters()) fluid_entries_ = entries_.size();
+        const LaneRange lanes = lanes_in_use(particles, c);
         if (!is_large(cluster_box_[c])) {
-            enter(cluster_box_[c], c);
+            enter(cluster_box_[c], lanes);
             continue;
         }
-        const LaneRange lanes = lanes_in_use(particles, c);
-        for (std::size_t i = lanes.begin; i < lanes.end; ++i) enter(box_of(particles, {i, i + 1}), c);
+        for (std::size_t i = lanes.begin; i < lanes.end; ++i) enter(box_of(particles, {i, i + 1}), {i, i + 1});
     }
+    if (particles.ghost_clusters == 0) fluid_entries_ = entries_.size();
     if (entries_.empty()) {  // an open domain that has run dry
         origin_.fill(0);
         end_.fill(0);
@@ -100,7 +102,7 @@ void ClusterGrid<D>::build(const Particles<D>& particles, double reach, BlockLoo
     cell_of_.resize(entries_.size());
     cell_start_.assign(cells + 1, 0);
     for (std::size_t e = 0; e < entries_.size(); ++e) {
-        const Box& box = entries_[e].first;
+        const Box& box = entries_[e].box;
         std::size_t cell = 0;
         for (int d = 0; d < D; ++d)
             cell = cell * std::size_t(cells_[d]) + std::size_t(cell_along(d, 0.5 * (box.low[d] + box.high[d])));
@@ -110,27 +112,28 @@ void ClusterGrid<D>::build(const Particles<D>& particles, double reach, BlockLoo
     for (std::size_t c = 0; c < cells; ++c) cell_start_[c + 1] += cell_start_[c];
     for (int d = 0; d < D; ++d)
         for (auto* side : {&low_[d], &high_[d]}) side->resize(entries_.size() + boxes_at_once);
-    cluster_.resize(entries_.size() + boxes_at_once);
+    for (auto* of : {&cluster_, &entry_}) of->resize(entries_.size() + boxes_at_once);
     for (std::size_t e = 0; e < entries_.size(); ++e) {
         const std::size_t k = cell_start_[cell_of_[e]]++;
         for (int d = 0; d < D; ++d) {
-            low_[d][k] = entries_[e].first.low[d];
-            high_[d][k] = entries_[e].first.high[d];
+            low_[d][k] = entries_[e].box.low[d];
+            high_[d][k] = entries_[e].box.high[d];
         }
-        cluster_[k] = entries_[e].second;
+        cluster_[k] = entries_[e].begin / std::uint32_t(W);
+        entry_[k] = std::uint32_t(e);
     }
     for (std::size_t c = cells; c > 0; --c) cell_start_[c] = cell_start_[c - 1];
     cell_start_[0] = 0;
 }
 
-// Appends the clusters of all entries whose box is within reach of this one.
 template <int D>
-void ClusterGrid<D>::collect(const Box& box, std::vector<std::uint32_t>& found) const {
-    const double reach2 = reach_ * reach_;
+void ClusterGrid<D>::collect(const Box& box, double reach, const std::vector<std::uint32_t>& what,
+                             std::vector<std::uint32_t>& found) const {
+    const double reach2 = reach * reach;
     std::int32_t first[D], last[D], row[D];
     for (int d = 0; d < D; ++d) {
         // A hair more: an entry's centre is rounded.
-        const double margin = (reach_ + half_[d]) * (1 + 1e-12) + 1e-12 * std::fabs(box.low[d] + box.high[d]);
+        const double margin = (reach + half_[d]) * (1 + 1e-12) + 1e-12 * std::fabs(box.low[d] + box.high[d]);
         row[d] = first[d] = cell_along(d, box.low[d] - margin);
         last[d] = cell_along(d, box.high[d] + margin);
     }
@@ -155,7 +158,7 @@ void ClusterGrid<D>::collect(const Box& box, std::vector<std::uint32_t>& found) 
             }
             const std::size_t n = std::min<std::size_t>(boxes_at_once, end - k);
             for (std::size_t l = 0; l < n; ++l) {  // every one is written, and overwritten unless it counts
-                found[count] = cluster_[k + l];
+                found[count] = what[k + l];
                 count += distance2[l] < reach2;
             }
         }
@@ -175,13 +178,20 @@ void ClusterGrid<D>::candidates(const Particles<D>& particles, std::size_t clust
                                 std::vector<std::uint32_t>& found) const {
     found.clear();
     if (!is_large(cluster_box_[cluster])) {
-        collect(cluster_box_[cluster], found);
+        collect(cluster_box_[cluster], reach_, cluster_, found);
     } else {
         const LaneRange lanes = lanes_in_use(particles, cluster);
-        for (std::size_t i = lanes.begin; i < lanes.end; ++i) collect(box_of(particles, {i, i + 1}), found);
+        for (std::size_t i = lanes.begin; i < lanes.end; ++i)
+            collect(box_of(particles, {i, i + 1}), reach_, cluster_, found);
     }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
+}
+
+template <int D>
+void ClusterGrid<D>::entries_near(std::size_t entry, double reach, std::vector<std::uint32_t>& found) const {
+    found.clear();
+    collect(entries_[entry].box, reach, entry_, found);
 }
 
 template class ClusterGrid<2>;

@@ -2,8 +2,9 @@
 //
 // Lists hold clusters of W lanes, not particles (physics/fluid/particles.hpp): a pair loop computes all W pairs of an
 // entry, and lanes outside the support contribute zero. They come twice (Páll and Hess 2013, "dual pair lists"):
-// - `blocks` reach R + skin and stay valid until some particle or wall has moved half the skin. They are made by a
-//   search (neighbour_search.hpp) together with the order of the particles and the ghosts.
+// - `blocks` reach R + skin and stay valid until particles that might meet have moved against each other by the skin
+//   (relative_travel.hpp). They are made by a search (neighbour_search.hpp) together with the order of the particles
+//   and the ghosts.
 // - `inner` holds those entries of `blocks` that have a lane which may come closer than R in the coming step.
 //   Two entries in five go, and with them two fifths of the arithmetic; pruning costs a few per cent of a pass.
 // Sums over either are the same bits: what is left out would have added zeros.

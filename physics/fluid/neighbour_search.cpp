@@ -82,11 +82,11 @@ void NeighbourSearch<D>::build(const Particles<D>& particles, NeighbourLists<D>&
     lists.pruned = false;
     lists.blocks.resize(particles.blocks());
     lists.inner.resize(particles.blocks());
+    grid_.build(particles, lists.reach(), loop);
     if (method == SearchMethod::tree) {
         build_with_tree(particles, lists, filter, loop);
         return;
     }
-    grid_.build(particles, lists.reach(), loop);
     loop(particles.blocks(), [&](std::size_t block) {
         thread_local std::vector<std::uint32_t> candidates;
         NeighbourBlock& out = lists.blocks[block];

@@ -33,25 +33,38 @@ class ClusterGrid {
     // Clusters with a lane that may lie within reach of a fluid cluster's lanes, ascending, once each.
     void candidates(const Particles<D>& particles, std::size_t cluster, std::vector<std::uint32_t>& found) const;
 
+    // What is binned: clusters, or single particles where a cluster's lie far apart; those of the fluid come first.
+    std::size_t fluid_entries() const { return fluid_entries_; }
+    LaneRange entry_lanes(std::size_t entry) const { return {entries_[entry].begin, entries_[entry].end}; }
+    // Entries whose box was within `reach` of this one's when they were binned, itself included, in any order.
+    void entries_near(std::size_t entry, double reach, std::vector<std::uint32_t>& found) const;
+
   private:
     struct Box {
         double low[D], high[D];
+    };
+    struct Entry {
+        Box box;
+        std::uint32_t begin, end;  // lanes
     };
     static Box box_of(const Particles<D>& particles, LaneRange lanes);
     bool is_large(const Box& box) const;
     void choose_cells(std::size_t entries);
     std::int32_t cell_along(int d, double x) const;
-    void collect(const Box& box, std::vector<std::uint32_t>& found) const;
+    // Appends what[k] of all places k whose box is within reach of this one.
+    void collect(const Box& box, double reach, const std::vector<std::uint32_t>& what,
+                 std::vector<std::uint32_t>& found) const;
 
     double reach_ = 0, width_ = 0;
     std::vector<Box> cluster_box_;
     // A cluster whose lanes lie far apart enters as one box per lane.
-    std::vector<std::pair<Box, std::uint32_t>> entries_;
+    std::vector<Entry> entries_;
+    std::size_t fluid_entries_ = 0;
     std::array<double, D> origin_{}, end_{}, half_{};  // half_: the largest half extent of an entry
     std::array<std::int32_t, D> cells_{};
     std::vector<std::uint32_t> cell_of_, cell_start_;
-    std::array<std::vector<double>, D> low_, high_;  // entries in the order of cells
-    std::vector<std::uint32_t> cluster_;
+    std::array<std::vector<double>, D> low_, high_;  // entries in the order of cells …
+    std::vector<std::uint32_t> cluster_, entry_;     // … and which they are
 };
 
 template <int D>
@@ -60,6 +73,8 @@ class NeighbourSearch {
     SearchMethod method = SearchMethod::cell_grid;
     // Fills lists.blocks and takes back any pruning. `filter` may be null. Positions must be finite.
     void build(const Particles<D>& particles, NeighbourLists<D>& lists, const PairFilter<D>* filter, BlockLoop loop);
+    // As the last build has left it.
+    const ClusterGrid<D>& grid() const { return grid_; }
 
   private:
     ClusterGrid<D> grid_;

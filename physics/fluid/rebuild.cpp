@@ -28,6 +28,7 @@ void make_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop) {
     if (walls) walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), Vec<D>(fluid.flux.gravity));
     fluid.search.build(particles, fluid.lists, walls ? &walls->visibility : nullptr, loop);
     if (fluid.transport == Transport::shifting) fluid.surface.resize(particles);
+    fluid.relative_travel.lists_are_new();
 }
 
 template <int D>
@@ -35,6 +36,12 @@ void make_lists(Fluid<D>& fluid, NormalFluxWalls<D>* walls, BlockLoop loop) {
     walls->rebuild(fluid.particles, fluid.spacing, fluid.lists.reach(), loop);
     fluid.search.build(fluid.particles, fluid.lists, &walls->sight, loop);
     if (fluid.transport == Transport::shifting) fluid.surface.resize(fluid.particles);
+}
+
+// Particles and images come closer by at most twice the largest way of all plus twice that of walls.
+template <int D>
+bool hold_by_largest(const Fluid<D>& fluid, const Travel& travel, const ComingStep& coming) {
+    return travel.so_far() + travel.of_step(coming.dt) + coming.walls_moved < 0.5 * fluid.lists.skin;
 }
 
 template <int D, class Walls>
@@ -84,6 +91,25 @@ void rebuild_lists(Fluid<D>& fluid, NormalFluxWalls<D>& walls, BlockLoop loop) {
 }
 
 template <int D>
+bool lists_hold(Fluid<D>& fluid, const GhostWalls<D>* walls, const Travel& travel, const ComingStep& coming,
+                BlockLoop loop) {
+    if (hold_by_largest(fluid, travel, coming)) return true;
+    if (travel.acceleration2 == 0) return false;  // before the first step it is not known
+    const double reach = fluid.lists.reach();
+    const auto mark = [&](std::vector<std::uint8_t>& near) { walls->mark_near(fluid.particles, reach, near); };
+    const auto may_be_near = [&](std::size_t i) { return walls->is_near(fluid.particles, i, reach); };
+    const NearWalls near{mark, may_be_near};
+    return fluid.relative_travel.holds(fluid.particles, fluid.search.grid(), fluid.lists, travel, coming,
+                                       walls ? &near : nullptr, loop);
+}
+
+// What sees what across the edges of such walls is found out anew with the lists alone, and counts for more than pairs.
+template <int D>
+bool lists_hold(Fluid<D>& fluid, const NormalFluxWalls<D>*, const Travel& travel, const ComingStep& coming, BlockLoop) {
+    return hold_by_largest(fluid, travel, coming);
+}
+
+template <int D>
 void remake_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop, FunctionRef<void()> also) {
     remake(fluid, walls, loop, also);
 }
@@ -99,7 +125,11 @@ template void remake_lists(Fluid<2>&, NormalFluxWalls<2>&, BlockLoop, FunctionRe
 template void remake_lists(Fluid<3>&, NormalFluxWalls<3>&, BlockLoop, FunctionRef<void()>);
 
 template void rebuild_lists(Fluid<2>&, GhostWalls<2>*, BlockLoop);
+template bool lists_hold(Fluid<2>&, const GhostWalls<2>*, const Travel&, const ComingStep&, BlockLoop);
+template bool lists_hold(Fluid<2>&, const NormalFluxWalls<2>*, const Travel&, const ComingStep&, BlockLoop);
 template void rebuild_lists(Fluid<3>&, GhostWalls<3>*, BlockLoop);
+template bool lists_hold(Fluid<3>&, const GhostWalls<3>*, const Travel&, const ComingStep&, BlockLoop);
+template bool lists_hold(Fluid<3>&, const NormalFluxWalls<3>*, const Travel&, const ComingStep&, BlockLoop);
 template void rebuild_lists(Fluid<2>&, NormalFluxWalls<2>&, BlockLoop);
 template void rebuild_lists(Fluid<3>&, NormalFluxWalls<3>&, BlockLoop);
 

@@ -15,6 +15,15 @@ void rebuild_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop);
 template <int D>
 void rebuild_lists(Fluid<D>& fluid, NormalFluxWalls<D>& walls, BlockLoop loop);
 
+// True if lists and ghosts hold to the end of the coming step: nothing that has not been listed or mirrored can come
+// closer than R.
+template <int D>
+bool lists_hold(Fluid<D>& fluid, const GhostWalls<D>* walls, const Travel& travel, const ComingStep& coming,
+                BlockLoop loop);
+template <int D>
+bool lists_hold(Fluid<D>& fluid, const NormalFluxWalls<D>* walls, const Travel& travel, const ComingStep& coming,
+                BlockLoop loop);
+
 // After a checkpoint has been read: makes lists, ghosts and all that goes with them as they were made when particles
 // stood at x_built and the walls' vertices where fluid.record says, calls `also` there, for what others collect from
 // the lists, and takes particles and walls to where they are now. Not a bit differs from what was there when the

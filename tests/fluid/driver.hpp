@@ -38,7 +38,7 @@ Fluid<D> make_fluid(double spacing, const Tait& tait, const FluxParameters& flux
                    .surface = {},
                    .ledger = {}};
     fluid.lists.radius = fluid.kernel.radius();
-    fluid.lists.skin = skin_ratio * fluid.kernel.radius();
+    fluid.lists.skin = skin_ratio<D>(true) * fluid.kernel.radius();
     return fluid;
 }
 
@@ -125,7 +125,7 @@ class Driver {
     void step(double dt, BlockLoop loop = serial_loop) {
         const Travel travel = most_travelled();
         const double wall_travel = dt * walls_speed();
-        if (!lists_hold(travel.so_far() + travel.of_step(dt) + wall_travel)) rebuild(loop);
+        if (!hold(travel, dt, wall_travel, loop)) rebuild(loop);
         prune(fluid.particles, fluid.lists, skin_of_step(travel, dt, wall_travel, fluid.lists.radius), loop);
         if (fluid.integration.predicts())
             loop(fluid.blocks(), [&](std::size_t block) {
@@ -171,15 +171,13 @@ class Driver {
         return std::sqrt(speed2);
     }
 
-    bool lists_hold(double moved) const {
+    bool hold(const Travel& travel, double dt, double wall_travel, BlockLoop loop) {
         if (fluid.rebuilds == 0) return false;
-        if (walls) {
-            double wall2 = 0;
-            for (std::size_t k = 0; k < built_.size(); ++k)
-                wall2 = std::max(wall2, (walls->panels.position[k] - built_[k]).squaredNorm());
-            moved += std::sqrt(wall2);
-        }
-        return moved < 0.5 * fluid.lists.skin;
+        double wall2 = 0;
+        for (std::size_t k = 0; k < built_.size(); ++k)
+            wall2 = std::max(wall2, (walls->panels.position[k] - built_[k]).squaredNorm());
+        const GhostWalls<D>* known = walls ? &*walls : nullptr;
+        return lists_hold(fluid, known, travel, {dt, std::sqrt(wall2) + wall_travel}, loop);
     }
 
     std::vector<Vec<D>> built_;

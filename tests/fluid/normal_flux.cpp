@@ -28,7 +28,7 @@ Fluid<D> still_fluid(double spacing, double depth, const std::vector<FillBox<D>>
     Fluid<D> fluid = make_fluid<D>(spacing, Tait{1000, 10 * std::sqrt(g * depth)}, flux);
     fluid.kernel = WendlandC2<D>(ratio * spacing);
     fluid.lists.radius = ratio * spacing;
-    fluid.lists.skin = skin_ratio * ratio * spacing;
+    fluid.lists.skin = skin_ratio<D>(true) * ratio * spacing;
     fill<D>(fluid.particles, boxes, spacing, fluid.tait, g, depth);
     return fluid;
 }

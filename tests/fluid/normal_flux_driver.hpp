@@ -70,7 +70,7 @@ class FluxDriver {
     }
 
     void step(double dt, BlockLoop loop = serial_loop) {
-        if (!lists_hold(dt)) rebuild(loop);
+        if (!hold(dt, loop)) rebuild(loop);
         for (int stage = 0; stage < fluid.integration.stages(); ++stage) {
             rates(time + fluid.integration.stage_time(stage) * dt, loop, stage == 0);
             if (fluid.ledger.kept) {
@@ -117,24 +117,18 @@ class FluxDriver {
     }
 
   private:
-    bool lists_hold(double dt) const {
+    bool hold(double dt, BlockLoop loop) {
         if (fluid.rebuilds == 0) return false;
-        const auto& s = fluid.particles;
-        double displacement2 = 0, speed2 = 0, wall2 = 0, wall_speed2 = 0;
+        Travel most;
         for (std::size_t block = 0; block < fluid.blocks(); ++block)
-            displacement2 = std::max(displacement2, largest_displacement_squared(s, block));
-        for (std::size_t i = 0; i < s.count; ++i) {
-            double v2 = 0;
-            for (std::size_t d = 0; d < D; ++d) v2 += s.v[d][i] * s.v[d][i];
-            speed2 = std::max(speed2, v2);
-        }
+            most = largest(most, travel(fluid.particles, fluid.lanes(block)));
+        double wall2 = 0, wall_speed2 = 0;
         for (std::size_t k = 0; k < built_.size(); ++k) {
             wall2 = std::max(wall2, (walls.panels.position[k] - built_[k]).squaredNorm());
             wall_speed2 = std::max(wall_speed2, walls.panels.velocity[k].squaredNorm());
         }
-        const double moved =
-            std::sqrt(displacement2) + std::sqrt(wall2) + dt * (std::sqrt(speed2) + std::sqrt(wall_speed2));
-        return moved < 0.5 * fluid.lists.skin;
+        const ComingStep coming{dt, std::sqrt(wall2) + dt * std::sqrt(wall_speed2)};
+        return lists_hold(fluid, &walls, most, coming, loop);
     }
 
     std::vector<Vec<D>> built_;

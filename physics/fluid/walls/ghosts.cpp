@@ -56,6 +56,24 @@ void GhostWalls<D>::rebuild(Particles<D>& particles, double spacing, double reac
     visibility.prepare(particles, panels, grid, periodic, ghosts, corners, patch, 0.5 * spacing);
 }
 
+template <int D>
+bool GhostWalls<D>::is_near(const Vec<D>& x, double reach) const {
+    for (int d = 0; d < D; ++d)
+        if (periodic.along[std::size_t(d)] && !(x[d] > periodic.low[d] + reach && x[d] < periodic.high[d] - reach))
+            return true;
+    return grid.at(x) != nullptr;
+}
+
+template <int D>
+bool GhostWalls<D>::is_near(const Particles<D>& particles, std::size_t i, double reach) const {
+    return is_near(at<D>(particles.x, i), reach);
+}
+
+template <int D>
+void GhostWalls<D>::mark_near(const Particles<D>& particles, double reach, std::vector<std::uint8_t>& near) const {
+    for (std::size_t i = 0; i < particles.count; ++i) near[i] |= is_near(at<D>(particles.x_built, i), reach);
+}
+
 // True if the image lies beyond another side of the body behind the panel.
 template <int D>
 bool GhostWalls<D>::sticks_out(const Particles<D>& particles, const Ghost& ghost, const Vec<D>& image) const {

@@ -60,6 +60,10 @@ class GhostWalls {
     std::size_t hold_back(Particles<D>& particles, double spacing) const;
     // The deepest parent behind its panel.
     Escape deepest(const Particles<D>& particles) const;
+    // Sets near[i] for particles that were within `reach`, that of the last rebuild, of a panel or a seam of a periodic
+    // domain then, and whether particle i is within `reach` of where they stood.
+    void mark_near(const Particles<D>& particles, double reach, std::vector<std::uint8_t>& near) const;
+    bool is_near(const Particles<D>& particles, std::size_t i, double reach) const;
     // Where a ghost's parent stands before the panel or corner: shifted by a period if the wall's copy mirrors it.
     Vec<D> before_wall(const Particles<D>& particles, const Ghost& ghost) const;
 
@@ -70,6 +74,7 @@ class GhostWalls {
         Vec<D> image, wall_velocity;
         Mat<D> S, T;
     };
+    bool is_near(const Vec<D>& x, double reach) const;
     Mirror mirror(const Vec<D>& x, const Ghost& ghost) const;
     Mirror mirror_at_corner(const Vec<D>& x, const Corner<D>& corner) const;
     Vec<D> place(const Particles<D>& particles, const Ghost& ghost) const;
