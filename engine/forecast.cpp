@@ -30,7 +30,16 @@ double time(const Work& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Wall-clock time of one evaluation of all rates, normal flux walls included: the median of a few.
+// The median of a few, so that another program in between does not count.
+template <std::size_t few, class Work>
+double typical_time(const Work& work) {
+    std::array<double, few> times{};
+    for (double& seconds : times) seconds = time(work);
+    std::sort(times.begin(), times.end());
+    return times[few / 2];
+}
+
+// Wall-clock time of one evaluation of all rates, normal flux walls included.
 template <int D>
 double time_evaluation(Model<D>& model, double step, tasks::Executor& executor) {
     fluid::Fluid<D>& fluid = *model.fluid;
@@ -51,10 +60,7 @@ double time_evaluation(Model<D>& model, double step, tasks::Executor& executor) 
                 walls->add_fluxes(fluid.particles, fluid.kernel, fluid.flux, fluid.tait.reference_density, block);
         });
     };
-    std::array<double, 5> times{};
-    for (double& seconds : times) seconds = time([&] { executor.execute(evaluate); });
-    std::sort(times.begin(), times.end());
-    return times[times.size() / 2];
+    return typical_time<5>([&] { executor.execute(evaluate); });
 }
 
 // Of a body alone. The first step also finds the first acceleration, the second is timed.
@@ -76,16 +82,12 @@ void forecast_structure(const io::Scene& scene, Model<D>& model, Forecast& made)
 double time_solve(const io::Scene& scene, Model<2>& model, double cycle) {
     start(model, scene);
     coupling::Interface& interface = *model.interface;
-    constexpr int steps = 3;
     const auto step = [&] {
         advance_stably(solver_of(model), cycle, interface.solid_loads, interface.borne_loads, interface.between,
                        tasks::parallel_loop);
     };
     step();  // also finds the first acceleration
-    return time([&] {
-               for (int k = 0; k < steps; ++k) step();
-           }) /
-           steps;
+    return typical_time<3>(step);
 }
 
 }  // namespace
