@@ -188,7 +188,15 @@ void NormalFluxWalls<D>::add_pressure_forces_with(const Particles<D>& s, const K
                 add_to_vertices(point, (1 - full) * weight * along.dot(n) * n, vertex_forces);
             }
         }
-    for (std::size_t point = 0; point < points.size(); ++point) {
+    // Across the seam of a periodic domain a point and its copies share one mean: each sees a part of the particles.
+    const std::size_t originals =
+        points.size() * (panels.size() - panels.copies) / std::max<std::size_t>(1, panels.size());
+    for (std::size_t point = originals; point < points.size(); ++point) {
+        wall_pressure_[point % originals] += wall_pressure_[point];
+        wetness_[point % originals] += wetness_[point];
+        shear_[point % originals] += shear_[point];
+    }
+    for (std::size_t point = 0; point < originals; ++point) {
         if (wetness_[point] == 0) continue;
         Vec<D> force = shear_[point];
         for (int d = 0; d < D; ++d) force[d] += wall_pressure_[point] * fields.n[d][point];

@@ -24,7 +24,8 @@ struct WallPoints {
     std::vector<Cell> cell;
     std::size_t size() const { return cell.size(); }
 
-    // Neighbouring points of a panel are no further apart than `spacing`.
+    // Neighbouring points of a panel are no further apart than `spacing`. Panel by panel, panels that are as large cut
+    // alike: the points of copies follow those of the originals, in the same order.
     void cut(const Panels<D>& panels, double spacing);
     // Places of points after the panels have moved; panels.update_geometry() comes first.
     void update(const Panels<D>& panels);
