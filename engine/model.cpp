@@ -150,22 +150,9 @@ void start(Model<D>& model, const io::Scene& scene) {
         if (model.solid) start_solid(model, scene);
 }
 
-template <int D>
-double bytes_per_particle(const fluid::Fluid<D>& fluid) {
-    const auto& s = fluid.particles;
-    if (s.count == 0) return 0;
-    double bytes = double(s.bytes() + fluid.integration.bytes());
-    for (const auto& block : fluid.lists.blocks)
-        bytes += 4 * double(block.open.capacity() + block.masked.capacity()) + double(block.mask.capacity()) +
-                 8 * double(block.particle.capacity());
-    return bytes / double(s.count);
-}
-
 template std::unique_ptr<Model<2>> make_model(const io::Scene&);
 template std::unique_ptr<Model<3>> make_model(const io::Scene&);
 template void start(Model<2>&, const io::Scene&);
 template void start(Model<3>&, const io::Scene&);
-template double bytes_per_particle(const fluid::Fluid<2>&);
-template double bytes_per_particle(const fluid::Fluid<3>&);
 
 }  // namespace aquagraph::engine

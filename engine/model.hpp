@@ -85,8 +85,4 @@ std::unique_ptr<Model<D>> make_model(const io::Scene& scene);
 template <int D>
 void start(Model<D>& model, const io::Scene& scene);
 
-// Bytes that particles, lists and ghosts take, per fluid particle.
-template <int D>
-double bytes_per_particle(const fluid::Fluid<D>& fluid);
-
 }  // namespace aquagraph::engine

@@ -122,15 +122,6 @@ class WaterBlock {
         return entries * fluid::W / double(fluid.lists.pairs());
     }
 
-    double bytes_per_particle() const {
-        const auto& s = fluid.particles;
-        double bytes = double(s.bytes() + fluid.integration.bytes());
-        for (const auto* lists : {&fluid.lists.blocks, &fluid.lists.inner})
-            for (const auto& block : *lists)
-                bytes += double(fluid::bytes_of(block.particle, block.open, block.masked, block.mask));
-        return bytes / double(s.count);
-    }
-
     // Whether the run means anything.
     bool finite() const {
         const auto& s = fluid.particles;

@@ -52,7 +52,7 @@ Measured measure(std::size_t n, double ratio, double mach, int steps, const flui
             rounds * steps,
             block.lanes_per_pair(false),
             block.lanes_per_pair(true),
-            block.bytes_per_particle(),
+            bytes_per_particle(block.fluid),
             block.fluid.rebuilds - rebuilds};
 }
 

@@ -91,6 +91,18 @@ FluidEnergies total_energies(const Fluid<D>& fluid) {
     return sum;
 }
 
+// Memory of everything that is as long as there are particles [bytes], ghosts' shares included.
+template <int D>
+double bytes_per_particle(const Fluid<D>& fluid) {
+    if (fluid.particles.count == 0) return 0;
+    std::size_t bytes = fluid.particles.bytes() + fluid.integration.bytes() + fluid.search.bytes() +
+                        fluid.order.bytes() + fluid.reorder.bytes() + fluid.relative_travel.bytes();
+    for (const auto* lists : {&fluid.lists.blocks, &fluid.lists.inner})
+        for (const NeighbourBlock& block : *lists)
+            bytes += bytes_of(block.particle, block.open, block.masked, block.mask);
+    return double(bytes) / double(fluid.particles.count);
+}
+
 // Runs something that takes energy out of the water otherwise than by pair forces, and books it.
 template <int D, class F>
 void book_loss(Fluid<D>& fluid, F&& f) {

@@ -38,6 +38,9 @@ class ClusterGrid {
     LaneRange entry_lanes(std::size_t entry) const { return {entries_[entry].begin, entries_[entry].end}; }
     // Entries whose box was within `reach` of this one's when they were binned, itself included, in any order.
     void entries_near(std::size_t entry, double reach, std::vector<std::uint32_t>& found) const;
+    std::size_t bytes() const {
+        return bytes_of(cluster_box_, entries_, cell_of_, cell_start_, low_, high_, cluster_, entry_);
+    }
 
   private:
     struct Box {
@@ -75,6 +78,7 @@ class NeighbourSearch {
     void build(const Particles<D>& particles, NeighbourLists<D>& lists, const PairFilter<D>* filter, BlockLoop loop);
     // As the last build has left it.
     const ClusterGrid<D>& grid() const { return grid_; }
+    std::size_t bytes() const { return grid_.bytes(); }
 
   private:
     ClusterGrid<D> grid_;

@@ -161,8 +161,8 @@ bool RelativeTravel<D>::groups_hold(const Particles<D>& particles, const Cluster
 
 template <int D>
 std::size_t RelativeTravel<D>::bytes() const {
-    std::size_t sum = near_.size() + block_holds_.size() + motions_.size() * sizeof(Motion);
-    for (const Part& part : parts_) sum += (part.end.size() + part.other.size()) * sizeof(std::uint32_t);
+    std::size_t sum = bytes_of(near_, block_holds_, motions_);
+    for (const Part& part : parts_) sum += bytes_of(part.end, part.other);
     return sum;
 }
 

@@ -33,7 +33,7 @@ template <int D>
 class RelativeTravel {
   public:
     // How much further than R + skin groups are looked at, over R: what is not looked at holds for (skin + margin)/2 of
-    // displacement. In 3D every tenth of R costs a quarter more of them.
+    // displacement. In 3D their number grows with the cube of that distance.
     static constexpr double margin_ratio = D == 2 ? 1.0 : 0.25;
 
     // To be called when lists have been made.

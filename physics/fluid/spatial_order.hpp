@@ -18,6 +18,7 @@ class SpatialOrder {
     // Positions x of the first n lanes; `spacing` is the typical distance between particles.
     std::span<const std::uint32_t> sort(const Vectors<D>& x, std::size_t n, double spacing,
                                         BlockLoop loop = serial_loop);
+    std::size_t bytes() const { return bytes_of(order_, column_start_, column_of_, places_); }
 
   private:
     struct Place {
@@ -33,6 +34,11 @@ template <int D>
 class Reorder {
   public:
     void apply(Particles<D>& particles, std::span<const std::uint32_t> order, BlockLoop loop = serial_loop);
+    std::size_t bytes() const {
+        std::size_t sum = bytes_of(id_buffer_);
+        for (const Scalars& buffer : buffers_) sum += bytes_of(buffer);
+        return sum;
+    }
 
   private:
     std::vector<Scalars*> fields_;
