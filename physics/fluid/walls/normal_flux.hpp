@@ -35,9 +35,8 @@
 //
 // Schemes: the wall points of δ-SPH are those of the Riemann schemes, p_s is the partial Riemann problem's (De Leffe et
 // al. 2009); its diffusion of density has no part at walls, since it vanishes where p is linear. It is the diffusion
-// that keeps water still next to these walls, as Mayrhofer et al. (2013) found for theirs, with enough viscosity:
-// how much is in damping.hpp. Artificial viscosity alone has none and
-// does not (io/scene_validation.cpp refuses it).
+// that keeps water still next to these walls, as Mayrhofer et al. (2013) found for theirs, with enough viscosity: how
+// much is in damping.hpp. Artificial viscosity alone has none and does not (io/scene_validation.cpp refuses it).
 //
 // The fullness λ of gradients.hpp would take the wall for a free surface. The moment that is missing behind the wall
 // is known, (1 - γ) 1 + Σ_s n_s ⊗ x_is W_is A_s, and is added before the eigenvalue is taken: λ = 1 where water fills
