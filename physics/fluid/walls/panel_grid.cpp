@@ -151,6 +151,21 @@ void PanelGrid<D>::gather(const Cell& cell, const Panels<D>& panels, const Vec<D
 }
 
 template <int D>
+double PanelGrid<D>::clearance(const Cell& cell, const Panels<D>& panels, const Vec<D>& x) const {
+    double least = reach_;
+    for (std::size_t entry = 0; entry < cell.panel.size(); ++entry) {
+        const auto k = std::size_t(cell.panel[entry]);
+        const Vec<D> from = x - periodic_.shift(cell.copy[entry]);
+        if constexpr (D == 2)
+            least = std::min(least, distance_to_segment(from, panels.vertex(k, 0), panels.vertex(k, 1)));
+        else
+            least = std::min(
+                least, std::max(std::fabs(panels.height(k, from)), (from - panels.centroid[k]).norm() - radius_[k]));
+    }
+    return least;
+}
+
+template <int D>
 bool PanelGrid<D>::is_convex_room(const Cell& cell, const Panels<D>& panels) const {
     const std::size_t n = cell.panel.size();
     if constexpr (D == 3) {
@@ -378,13 +393,13 @@ typename PanelGrid<D>::Crossing PanelGrid<D>::first_crossing(const Cell& cell, c
     constexpr std::size_t chunk = 16;
     Crossing first;
     for (std::size_t begin = 0; begin < n; begin += chunk) {
-        double along[chunk];
+        double along[chunk], least = first.along;
         const std::size_t m = std::min(chunk, n - begin);
         if constexpr (D == 2) {
             const double ax = a.x(), ay = a.y(), bx = b.x(), by = b.y();
             const double *x = &cell.sight[0][begin], *y = &cell.sight[1][begin], *tx = &cell.sight[2][begin],
                          *ty = &cell.sight[3][begin], *length = &cell.sight[4][begin];
-#pragma omp simd
+#pragma omp simd reduction(min : least)
             for (std::size_t k = 0; k < m; ++k) {
                 // distance along the normal (-ty, tx) and along the tangent, of both ends
                 const double da = -(ax - x[k]) * ty[k] + (ay - y[k]) * tx[k],
@@ -394,6 +409,7 @@ typename PanelGrid<D>::Crossing PanelGrid<D>::first_crossing(const Cell& cell, c
                 const double t = da / (da - db), s = sa + t * (sb - sa);
                 const bool crosses = (da * db < 0) & (s >= -slack * length[k]) & (s <= (1 + slack) * length[k]);
                 along[k] = crosses ? t : 2.0;
+                least = along[k] < least ? along[k] : least;
             }
         } else {
             const double ax = a.x(), ay = a.y(), az = a.z(), bx = b.x() - ax, by = b.y() - ay, bz = b.z() - az;
@@ -401,7 +417,7 @@ typename PanelGrid<D>::Crossing PanelGrid<D>::first_crossing(const Cell& cell, c
             for (std::size_t v = 0; v < 12; ++v) q[v] = &cell.sight[v][begin];
             const double *nx = q[0], *ny = q[1], *nz = q[2], *o = q[3], *ux = q[4], *uy = q[5], *uz = q[6], *u0 = q[7],
                          *vx = q[8], *vy = q[9], *vz = q[10], *v0 = q[11];
-#pragma omp simd
+#pragma omp simd reduction(min : least)
             for (std::size_t k = 0; k < m; ++k) {
                 const double da = nx[k] * ax + ny[k] * ay + nz[k] * az + o[k],
                              change = nx[k] * bx + ny[k] * by + nz[k] * bz;
@@ -410,8 +426,10 @@ typename PanelGrid<D>::Crossing PanelGrid<D>::first_crossing(const Cell& cell, c
                              v = vx[k] * x + vy[k] * y + vz[k] * z + v0[k];
                 const bool crosses = (da * (da + change) < 0) & (u >= -slack) & (v >= -slack) & (u + v <= 1 + slack);
                 along[k] = crosses ? t : 2.0;
+                least = along[k] < least ? along[k] : least;
             }
         }
+        if (least == first.along) continue;
         for (std::size_t k = 0; k < m; ++k)
             if (along[k] < first.along && cell.patch[begin + k] != patch_left_out) first = {int(begin + k), along[k]};
     }

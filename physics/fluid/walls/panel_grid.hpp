@@ -51,10 +51,13 @@ class PanelGrid {
     void look_closely_around(const Vec<D>& x, const Panels<D>& panels);
     // Forgets what look_closely_around has said.
     void look_as_built();
+    // Entries of a cell whose panels may be within reach of x, into `nearby`.
+    void gather(const Cell& cell, const Panels<D>& panels, const Vec<D>& x, Cell& nearby) const;
+    // Around x, in this cell, is no panel closer than this: the distance itself in 2D, no more than it in 3D; at most
+    // the reach [m].
+    double clearance(const Cell& cell, const Panels<D>& panels, const Vec<D>& x) const;
     // The first panel that the segment from a to b crosses, panels of one patch left out if wanted. The ends may lie
     // anywhere.
-    // Entries of a cell whose panels may be within reach of x, into `nearby`. In 3D.
-    void gather(const Cell& cell, const Panels<D>& panels, const Vec<D>& x, Cell& nearby) const;
     static Crossing first_crossing(const Cell& cell, const Vec<D>& a, const Vec<D>& b, int patch_left_out = -1);
 
     // True if the normals stay within 45° of their mean.

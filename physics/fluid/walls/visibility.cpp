@@ -23,6 +23,7 @@ void Visibility<D>::prepare(const Particles<D>& particles, const Panels<D>& pane
     prepared_ = ++prepared;
     place_.resize(particles.count);
     cell_.resize(particles.count);
+    clear_.resize(particles.count);
     const double in_front = 1e-3 * tolerance;
     for (std::size_t i = 0; i < particles.count; ++i) {
         Vec<D>& x = place_[i];
@@ -36,24 +37,28 @@ void Visibility<D>::prepare(const Particles<D>& particles, const Panels<D>& pane
             if (d < in_front && d > -tolerance && panels.is_over(panel, there))
                 x += (in_front - d) * panels.normal[panel];
         }
+        clear_[i] = cell_[i]->convex_room ? 0 : grid.clearance(*cell_[i], panels, x);
     }
 }
 
 template <int D>
+bool Visibility<D>::is_clear(std::size_t i, std::size_t j, const Vec<D>& target) const {
+    if (!cell_[j]) return true;
+    const double clear = std::max(clear_[i], clear_[j]);
+    return (target - place_[i]).squaredNorm() < clear * clear;
+}
+
+template <int D>
 const typename PanelGrid<D>::Cell& Visibility<D>::panels_near(std::size_t i) const {
-    if constexpr (D == 2) {
-        return *cell_[i];
-    } else {
-        thread_local Cell nearby;
-        thread_local std::uint64_t prepared = 0;
-        thread_local std::size_t particle = 0;
-        if (prepared != prepared_ || particle != i) {
-            grid_->gather(*cell_[i], *panels_, place_[i], nearby);
-            prepared = prepared_;
-            particle = i;
-        }
-        return nearby;
+    thread_local Cell nearby;
+    thread_local std::uint64_t prepared = 0;
+    thread_local std::size_t particle = 0;
+    if (prepared != prepared_ || particle != i) {
+        grid_->gather(*cell_[i], *panels_, place_[i], nearby);
+        prepared = prepared_;
+        particle = i;
     }
+    return nearby;
 }
 
 template <int D>
@@ -94,11 +99,13 @@ bool Visibility<D>::sees(std::size_t i, const Cell& cell, std::size_t lane, int*
     const std::size_t ghost_begin = particles_->ghost_begin();
     const Ghost* ghost = lane < ghost_begin ? nullptr : &(*ghosts_)[lane - ghost_begin];
     Vec<D> target;
-    if (!ghost)
-        target = place_[lane];
-    else if (ghost->is_image())
-        target = place_[ghost->parent] + periodic_->shift(ghost->copy);
-    else
+    if (!ghost || ghost->is_image()) {
+        const std::size_t j = ghost ? ghost->parent : lane;
+        target = place_[j];
+        if (ghost) target += periodic_->shift(ghost->copy);
+        *entry = -1;
+        if (is_clear(i, j, target)) return true;
+    } else
         for (int d = 0; d < D; ++d) target[d] = particles_->x[std::size_t(d)][lane];
     const auto crossing = PanelGrid<D>::first_crossing(cell, place_[i], target);
     *entry = crossing.entry < 0 ? -1 : cell.panel[std::size_t(crossing.entry)];

@@ -58,14 +58,17 @@ class Visibility : public PairFilter<D> {
     const std::vector<Ghost>* ghosts_ = nullptr;
     const std::vector<Corner<D>>* corners_ = nullptr;
     const std::vector<int>* patch_ = nullptr;
-    // The panels within reach of particle i: of its cell in 2D, fewer in 3D. Valid until the thread's next call.
+    // The panels within reach of particle i, fewer than its cell's. Valid until the thread's next call.
     const Cell& panels_near(std::size_t i) const;
+    // No line of sight between the places of two particles (or an image of one) is long enough to meet a panel.
+    bool is_clear(std::size_t i, std::size_t j, const Vec<D>& target) const;
 
     std::vector<std::pair<int, int>> blunt_edges_;  // pairs of patches, the smaller first, ascending
     double tolerance_ = 0;
     std::uint64_t prepared_ = 0;  // counts, over all objects: tells a thread that what it has gathered is old
     std::vector<Vec<D>> place_;
     std::vector<const Cell*> cell_;  // of each fluid particle
+    std::vector<double> clear_;      // around the place of each: no panel is closer [m]
 };
 
 extern template class Visibility<2>;
