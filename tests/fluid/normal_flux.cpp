@@ -1,4 +1,4 @@
-// Walls of the normal flux method: still water whatever the walls, a piston against shock theory and ghosts, momentum,
+// Walls of the normal flux method: equilibrium whatever the walls, a piston against shock theory and ghosts, momentum,
 // thin bodies, threads, memory, and the sums against a slow twin.
 #include "physics/fluid/walls/normal_flux.hpp"
 
@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-#include "tests/fluid/basins.hpp"
-#include "tests/fluid/normal_flux_driver.hpp"
+#include "tests/fluid/normal_flux_still.hpp"
 #include "tests/solid/allocation_count.hpp"
 #include "tests/solid/fixtures.hpp"
 
@@ -18,20 +17,6 @@ using aquagraph::solid::test::allocations;
 using aquagraph::solid::test::ThreadedLoop;
 
 namespace {
-
-constexpr double g = 9.81;
-
-template <int D>
-Fluid<D> still_fluid(double spacing, double depth, const std::vector<FillBox<D>>& boxes, double ratio = 4) {
-    FluxParameters flux;
-    flux.gravity[D - 1] = -g;
-    Fluid<D> fluid = make_fluid<D>(spacing, Tait{1000, 10 * std::sqrt(g * depth)}, flux);
-    fluid.kernel = WendlandC2<D>(ratio * spacing);
-    fluid.lists.radius = ratio * spacing;
-    fluid.lists.skin = skin_ratio<D>(true) * ratio * spacing;
-    fill<D>(fluid.particles, boxes, spacing, fluid.tait, g, depth);
-    return fluid;
-}
 
 // Keeps the particles for which `wet` holds.
 template <int D, class Wet>
@@ -51,76 +36,6 @@ void keep(Particles<D>& s, Wet&& wet) {
     s.resize(kept, 0);
 }
 
-template <int D>
-Panels<D> box_tank(const Vec<D>& size) {
-    Panels<D> panels;
-    if constexpr (D == 2) {
-        panels = tank(size.x(), size.y());
-    } else {
-        const double a = size.x(), b = size.y(), h = size.z();
-        panels.add_wall("tank",
-                        {{0, 0, 0}, {a, 0, 0}, {a, b, 0}, {0, b, 0}, {0, 0, h}, {a, 0, h}, {a, b, h}, {0, b, h}},
-                        {{0, 1, 2},
-                         {0, 2, 3},
-                         {0, 4, 5},
-                         {0, 5, 1},
-                         {1, 5, 6},
-                         {1, 6, 2},
-                         {2, 6, 7},
-                         {2, 7, 3},
-                         {3, 7, 4},
-                         {3, 4, 0}},
-                        false);
-    }
-    return panels;
-}
-
-struct Rest {
-    double fastest = 0, mean = 0, pressure_error = 0, volume_error = 0;
-};
-
-template <int D>
-Rest rest_of(const FluxDriver<D>& driver, double depth, double volume) {
-    const auto& s = driver.fluid.particles;
-    Rest rest;
-    double total = 0;
-    for (std::size_t i = 0; i < s.count; ++i) {
-        double v2 = 0;
-        for (std::size_t d = 0; d < D; ++d) v2 += s.v[d][i] * s.v[d][i];
-        v2 /= g * depth;
-        rest.fastest = std::max(rest.fastest, std::sqrt(v2));
-        rest.mean += v2 / double(s.count);
-        const double below = depth - s.x[D - 1][i];
-        const double expected = driver.fluid.tait.pressure(hydrostatic_deviation(driver.fluid.tait, g, below));
-        if (below > driver.fluid.kernel.radius())
-            rest.pressure_error = std::max(rest.pressure_error, std::fabs(s.p[i] - expected) / (1000 * g * depth));
-        total += s.volume[i];
-    }
-    rest.mean = std::sqrt(rest.mean);
-    rest.volume_error = std::fabs(total / volume - 1);
-    return rest;
-}
-
-template <int D>
-Rest worst_rest(FluxDriver<D>& driver, double depth, double volume, int acoustic_times) {
-    const double start = driver.time;
-    Rest worst;
-    for (int k = 1; k <= acoustic_times; ++k) {
-        driver.run(start + k * depth / driver.fluid.tait.sound_speed);
-        const Rest rest = rest_of(driver, depth, volume);
-        worst.fastest = std::max(worst.fastest, rest.fastest);
-        worst.mean = std::max(worst.mean, rest.mean);
-        worst.pressure_error = std::max(worst.pressure_error, rest.pressure_error);
-        worst.volume_error = std::max(worst.volume_error, rest.volume_error);
-    }
-    CAPTURE(worst.fastest);
-    CAPTURE(worst.mean);
-    CAPTURE(worst.pressure_error);
-    MESSAGE("fastest " << worst.fastest << ", mean " << worst.mean << ", pressure " << worst.pressure_error
-                       << ", volume " << worst.volume_error);
-    return worst;
-}
-
 // Accelerations of particles deeper than R, over g.
 template <int D>
 double largest_acceleration(const FluxDriver<D>& driver, double depth) {
@@ -135,32 +50,6 @@ double largest_acceleration(const FluxDriver<D>& driver, double depth) {
 }
 
 }  // namespace
-
-TEST_CASE("still water stays still between normal flux walls, in two and three dimensions") {
-    SUBCASE("2D, within the bounds of ghost walls") {
-        const double depth = 0.5, width = 0.8, spacing = 0.02;
-        FluxDriver<2> driver(still_fluid<2>(spacing, depth, {{{0, 0}, {width, depth}}}), tank(width, 1.5 * depth));
-        const Rest worst = worst_rest(driver, depth, width * depth, 20);
-        CHECK(worst.fastest < 0.002);
-        CHECK(worst.mean < 5e-4);
-        CHECK(worst.pressure_error < 0.005);
-        CHECK(worst.volume_error < 1e-4);
-        CHECK(driver.fluid.held_back == 0);
-        CHECK(driver.floored == 0);
-        CHECK(driver.walls.deepest(driver.fluid.particles).depth == 0);
-    }
-    SUBCASE("3D") {
-        const double depth = 0.5, spacing = 0.05;
-        FluxDriver<3> driver(still_fluid<3>(spacing, depth, {{{0, 0, 0}, {0.6, 0.5, depth}}}, 3),
-                             box_tank<3>({0.6, 0.5, 1}));
-        const Rest worst = worst_rest(driver, depth, 0.6 * 0.5 * depth, 10);
-        CHECK(worst.fastest < 0.006);
-        CHECK(worst.mean < 0.002);
-        CHECK(worst.pressure_error < 0.007);
-        CHECK(worst.volume_error < 1e-4);
-        CHECK(driver.fluid.held_back == 0);
-    }
-}
 
 TEST_CASE("a lattice of water is in equilibrium next to walls and thin bodies, before anything moves") {
     const double depth = 0.4, spacing = 0.02;
