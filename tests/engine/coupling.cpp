@@ -196,6 +196,10 @@ const std::string light_gate = with(with(gate, "density = 8000.0", "density = 40
 std::string between_flux_walls(const std::string& text) {
     return with(text, "sound_speed = 30.0", "sound_speed = 30.0\nwalls = \"normal_flux\"");
 }
+std::string shifted(const std::string& text) {
+    return with(text, "sound_speed = 30.0",
+                "sound_speed = 30.0\nscheme.name = \"riemann_ale\"\ntransport.name = \"shifting\"");
+}
 }  // namespace
 
 TEST_CASE("iterations hold a light gate that staggered schemes lose") {
@@ -250,6 +254,12 @@ TEST_CASE("a cycle that is begun again ends in the same bits") {
     SUBCASE("between walls of normal fluxes") {
         text = between_flux_walls(text);
     }
+    SUBCASE("between ghosts, mass exchanged and particles shifted") {
+        text = shifted(text);
+    }
+    SUBCASE("between walls of normal fluxes, mass exchanged and particles shifted") {
+        text = between_flux_walls(shifted(text));
+    }
     Built built(text);
     built.start();
     engine::Model<2>& model = *built.model;
@@ -261,7 +271,7 @@ TEST_CASE("a cycle that is begun again ends in the same bits") {
     const auto state = [&] {
         const auto& s = model.fluid->particles;
         std::vector<double> all(s.x[0].begin(), s.x[0].end());
-        for (const auto* field : {&s.x[1], &s.v[0], &s.v[1], &s.deviation, &s.p, &s.volume})
+        for (const auto* field : {&s.x[1], &s.v[0], &s.v[1], &s.deviation, &s.p, &s.volume, &s.mass})
             all.insert(all.end(), field->begin(), field->begin() + long(s.count));
         const auto u = model.solid->displacements();
         all.insert(all.end(), u.begin(), u.end());
