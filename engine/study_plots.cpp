@@ -55,6 +55,17 @@ struct Line {
     std::string label, points;
 };
 
+std::vector<std::string> parts_of(const std::string& label) {
+    constexpr std::string_view parting = ", ";
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= label.size();) {
+        const std::size_t end = std::min(label.find(parting, begin), label.size());
+        parts.push_back(label.substr(begin, end - begin));
+        begin = end + parting.size();
+    }
+    return parts;
+}
+
 // What is drawn for one case.
 class CasePlot {
   public:
@@ -70,6 +81,10 @@ class CasePlot {
             }
             if (!line.points.empty()) lines_.push_back(line);
         }
+        std::vector<std::string> labels;
+        for (const Line& line : lines_) labels.push_back(line.label);
+        labels = telling_labels(labels);
+        for (std::size_t k = 0; k < lines_.size(); ++k) lines_[k].label = labels[k];
     }
 
     bool empty() const { return lines_.empty(); }
@@ -138,17 +153,31 @@ std::string line_style(std::size_t k) {
                        1 + k / colours.size() % 4, points[k % points.size()]);
 }
 
+std::vector<std::string> telling_labels(const std::vector<std::string>& labels) {
+    std::vector<std::vector<std::string>> parts;
+    for (const std::string& label : labels) parts.push_back(parts_of(label));
+    const auto as_long = [&](const std::vector<std::string>& other) { return other.size() == parts.front().size(); };
+    if (labels.size() < 2 || !std::all_of(parts.begin(), parts.end(), as_long)) return labels;
+    std::vector<std::string> telling(labels.size());
+    for (std::size_t k = 0; k < parts.front().size(); ++k) {
+        const auto same = [&](const std::vector<std::string>& other) { return other[k] == parts.front()[k]; };
+        if (std::all_of(parts.begin(), parts.end(), same)) continue;
+        for (std::size_t i = 0; i < labels.size(); ++i) telling[i] += (telling[i].empty() ? "" : ", ") + parts[i][k];
+    }
+    return telling.front().empty() ? labels : telling;
+}
+
 std::vector<double> logarithmic_tics(double low, double high) {
-    std::vector<double> tenths, whole;
+    std::vector<double> tenths;
     for (int k = 10; k < 100; ++k) tenths.push_back(0.1 * k);
-    for (int k = 1; k < 10; ++k) whole.push_back(k);
     std::vector<double> tics;
-    for (const std::vector<double>& factors : {std::vector<double>{1, 2, 5}, whole, tenths}) {
+    for (const std::vector<double>& factors :
+         {std::vector<double>{1, 2, 5}, {1, 1.5, 2, 3, 5, 7}, {1, 1.2, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8}, tenths}) {
         tics.clear();
         for (double power = std::floor(std::log10(low)); power <= std::log10(high); ++power)
             for (const double factor : factors)
                 if (const double tic = factor * std::pow(10, power); tic >= low && tic <= high) tics.push_back(tic);
-        if (tics.size() >= 2) break;
+        if (tics.size() >= 3) break;
     }
     return tics;
 }

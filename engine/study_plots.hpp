@@ -12,9 +12,13 @@ namespace aquagraph::engine {
 // and the first 12 differ in colour.
 std::string line_style(std::size_t k);
 
-// Values with a label on a logarithmic axis, at least two within [low, high], 0 < low < high: 1, 2, 5 times powers of
-// ten, in between 1, 2, 3, ..., or 1.0, 1.1, 1.2, ... of them.
+// Values with a label on a logarithmic axis within [low, high], 0 < low < high: 1, 2, 5 times powers of ten, where that
+// makes fewer than three, steps in between, at last 1.0, 1.1, 1.2, ... of them.
 std::vector<double> logarithmic_tics(double low, double high);
+
+// Labels without what all of them say: parts between commas, where all have as many. "cps, p = 1" and "cps, p = 2"
+// become "p = 1" and "p = 2".
+std::vector<std::string> telling_labels(const std::vector<std::string>& labels);
 
 // One plot for each case of the study, one line per variant, as FOLDER/NAME_CASE.svg, of the coarse study
 // FOLDER/NAME_CASE-coarse.svg. Returns the files; empty for a case with nothing to draw, and for all where gnuplot is
