@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "engine/forecast.hpp"
+#include "engine/results.hpp"
 #include "engine/sharp_corners.hpp"
 #include "engine/staggering.hpp"
 #include "io/scheme_text.hpp"
@@ -139,6 +140,7 @@ template <int D>
 void check_in(const io::Scene& scene, int threads, std::ostream& out) {
     tasks::Executor executor(threads);
     const std::unique_ptr<Model<D>> model = make_model<D>(scene);
+    history_columns(scene, *model);  // for what it refuses
     out << scene.title << "\n";
     if (!scene.overrides.empty()) out << fmt::format("changed    {}\n", fmt::join(scene.overrides, ", "));
     if (model->structure) check_structure(scene, *model, executor, out);

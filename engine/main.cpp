@@ -67,7 +67,7 @@ Command run(CLI::App& app) {
     command
         .add_option("--checkpoint-every", options->checkpoint_every,
                     "Minutes of wall-clock time between checkpoints (default: the scene's; 0: only when asked to stop)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0.0, 1e6));
     command.add_flag("--quiet", options->quiet, "No progress, no table");
     return {&command, [=] { return engine::run(scene.read(), *options, std::cout, std::cerr); }};
 }

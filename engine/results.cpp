@@ -280,6 +280,17 @@ std::vector<io::Comparison> Results<D>::finish(const RunEnd& end) {
     return comparisons;
 }
 
+template <int D>
+std::vector<std::string> history_columns(const io::Scene& scene, Model<D>& model) {
+    std::vector<std::string> names;
+    for (const io::HistoryColumn& column :
+         columns_of(scene, history_parts(scene, model), make_diagnostics(scene, model)))
+        names.push_back(column.name);
+    return names;
+}
+
+template std::vector<std::string> history_columns(const io::Scene&, Model<2>&);
+template std::vector<std::string> history_columns(const io::Scene&, Model<3>&);
 template class Results<2>;
 template class Results<3>;
 template std::vector<tasks::Task> result_tasks(Results<2>*, const std::vector<Diagnostic>&);

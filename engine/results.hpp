@@ -16,6 +16,11 @@
 
 namespace aquagraph::engine {
 
+// The names of the columns of history.csv, without units. Throws io::SceneError for a comparison with a column that
+// will not be there, and for two of one name.
+template <int D>
+std::vector<std::string> history_columns(const io::Scene& scene, Model<D>& model);
+
 template <int D>
 class Results {
   public:

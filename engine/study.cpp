@@ -14,6 +14,7 @@
 #include "engine/study_plots.hpp"
 #include "engine/study_report.hpp"
 #include "engine/study_runs.hpp"
+#include "io/atomic_file.hpp"
 
 namespace aquagraph::engine {
 
@@ -169,6 +170,7 @@ ExitCode study(const io::Study& study, const StudyOptions& options, std::ostream
         return success;
     }
     const Places places = places_of(study, options);
+    if (!places.file.empty()) io::check_writable(places.file);
 
     const StopGuard guard;
     const auto stop = [] { return stop_requested != 0; };

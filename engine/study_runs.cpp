@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/child_process.hpp"
+#include "engine/study_checks.hpp"
 #include "io/atomic_file.hpp"
 #include "io/history.hpp"
 #include "io/scene_json.hpp"
@@ -129,22 +130,21 @@ std::vector<StudyRun> runs_of(const io::Study& study, bool coarse, const std::ve
                 run.resolution = one.resolutions[level];
                 run.variant = std::size_t(variant - study.variants.begin());
                 run.overrides = one.set;
-                const auto& set = study.variants[run.variant].set;
-                run.overrides.insert(run.overrides.end(), set.begin(), set.end());
+                run.overrides.insert(run.overrides.end(), variant->set.begin(), variant->set.end());
                 run.overrides.push_back(fmt::format("{}={}", one.resolution_key, run.resolution));
-                io::Scene scene = io::read_scene(one.scene, run.overrides);
+                std::vector<std::string> keys;
+                for (std::size_t k = 0; k < one.set.size(); ++k) keys.push_back(fmt::format("case[{}].set[{}]", c, k));
+                keys.insert(keys.end(), variant->set_keys.begin(), variant->set_keys.end());
+                keys.push_back(fmt::format("case[{}].resolutions[{}]", c, level));
+                const io::Scene scene = scene_of_run(study, run, keys);
                 // Frames are for looking at: the first and the last, so that time is that of computing.
                 run.overrides.push_back(fmt::format("output.frame_interval={}", scene.end_time));
                 run.parallel = scene.coupling.algorithm == io::CouplingAlgorithm::cps;
                 run.ratio = scene.coupling.ratio;
                 run.step_fraction = scene.coupling.step_fraction;
                 run.content = content_of(scene, program_hash.text(), threads);
-                const auto named = [&](const io::Compare& compare) {
-                    return compare.error && compare.label == one.error;
-                };
-                if (!one.error.empty() && std::none_of(scene.comparisons.begin(), scene.comparisons.end(), named))
-                    throw std::invalid_argument(fmt::format(
-                        "case {}: the scene has no [[compare]] with the label \"{}\"", one.name, one.error));
+                check_drawn_error(study, run, scene);
+                if (!one.curve.empty() && (runs.empty() || runs.back().study_case != c)) check_curve(study, run);
                 runs.push_back(std::move(run));
             }
     }

@@ -42,8 +42,7 @@ struct RunRecord {
 };
 
 // In the order of the study, coarse to fine. `only`: parts of "case/variant", any of which must occur in it; empty:
-// all. Reads every scene; throws io::SceneError for one that is wrong, std::invalid_argument for an `error` of a case
-// that none of its comparisons has.
+// all. Reads every scene; throws io::SceneError for one that is wrong, and for what study_checks.hpp says.
 std::vector<StudyRun> runs_of(const io::Study& study, bool coarse, const std::vector<std::string>& only,
                               const std::filesystem::path& program, int threads);
 

@@ -75,6 +75,16 @@ void make_folder(const std::filesystem::path& folder) {
     if (wrong) throw std::system_error(wrong, "the folder " + folder.string() + " cannot be made");
 }
 
+void check_writable(const std::filesystem::path& file) {
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    make_folder(folder);
+    const std::filesystem::path trial = temporary_name(folder / file.filename());
+    Stream stream(std::fopen(trial.c_str(), "wb"));
+    if (!stream) fail(file, "cannot be written");
+    stream.reset();
+    std::filesystem::remove(trial);
+}
+
 std::string read_file(const std::filesystem::path& file) {
     Stream stream(std::fopen(file.c_str(), "rb"));
     if (!stream) fail(file, "cannot be read");

@@ -14,6 +14,9 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view c
 void write_file_durably(const std::filesystem::path& file, std::span<const std::string_view> pieces);
 // With the folders above it, where they are not there. Throws std::system_error naming it.
 void make_folder(const std::filesystem::path& folder);
+// Whether a later write_file_atomically() will find its folder, which is made, and may write there; throws as that
+// does.
+void check_writable(const std::filesystem::path& file);
 std::string read_file(const std::filesystem::path& file);
 
 // The name under which `file` is written until it is complete; in the same folder.

@@ -18,9 +18,13 @@ bool parts(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r';
 }
 
+void skip_parting(std::string_view& line) {
+    while (!line.empty() && parts(line.front())) line.remove_prefix(1);
+}
+
 // The next number of the line; false where something else stands there.
 bool number(std::string_view& line, double& value) {
-    while (!line.empty() && parts(line.front())) line.remove_prefix(1);
+    skip_parting(line);
     if (line.starts_with('+')) line.remove_prefix(1);
     const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
     if (error != std::errc{} || !std::isfinite(value)) return false;
@@ -42,13 +46,25 @@ double interpolated(std::span<const double> time, std::span<const double> value,
 Curve read_reference(const Compare& compare) {
     const std::string text = read_file(compare.file);
     std::vector<std::pair<double, double>> points;
+    std::size_t line_number = 0;
     for (std::string_view rest = text; !rest.empty();) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
-        std::string_view line = rest.substr(0, end);
+        const std::string_view whole = rest.substr(0, end);
+        std::string_view line = whole;
         rest.remove_prefix(std::min(end + 1, rest.size()));
+        ++line_number;
         double time = 0, value = 0;
-        if (number(line, time) && number(line, value))
+        if (number(line, time) && number(line, value)) {
             points.emplace_back(compare.time_scale * time, compare.value_scale * value + compare.value_offset);
+            continue;
+        }
+        // Words stand above the numbers; among them a line that is none is a point that would be lost.
+        line = whole;
+        skip_parting(line);
+        if (points.empty() || line.empty() || line.front() == '#') continue;
+        throw std::runtime_error(fmt::format("{}:{}: two numbers are expected, but there stands `{}`",
+                                             compare.file.lexically_normal().string(), line_number,
+                                             line.substr(0, line.find_last_not_of(" \t\r") + 1).substr(0, 40)));
     }
     if (points.empty())
         throw std::runtime_error(fmt::format("{} holds no line with two numbers", compare.file.string()));

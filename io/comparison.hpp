@@ -15,9 +15,10 @@ struct Curve {
     std::vector<double> value;  // in the unit of the column
 };
 
-// Two columns parted by commas, semicolons, tabs or blanks; lines that do not start with two numbers are skipped. The
-// scales and the offset of `compare` are applied and the points put in ascending time. Throws std::system_error where
-// the file cannot be read and std::runtime_error where it holds no point.
+// Two columns parted by commas, semicolons, tabs or blanks. Above the first line with two numbers anything may stand,
+// below it empty lines and comments (#). The scales and the offset of `compare` are applied and the points put in
+// ascending time. Throws std::system_error where the file cannot be read and std::runtime_error, with the line, where
+// it holds no point or a line that is none.
 Curve read_reference(const Compare& compare);
 
 // `compare.formula` at `points` evenly spaced times of the window.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -354,7 +355,10 @@ class Validation {
                                 "give either `file` or `formula`");
                 continue;
             }
-            if (compare.file.empty()) continue;
+            if (compare.file.empty()) {
+                finite_formula(compare, element("compare", i, "formula"));
+                continue;
+            }
             const std::string help = "two columns of numbers, time and value; the path is seen from the scene's folder";
             if (!std::filesystem::exists(compare.file)) {
                 complaints_.add(
@@ -362,7 +366,16 @@ class Validation {
                 continue;
             }
             try {
-                read_reference(compare);
+                const std::vector<double> time = read_reference(compare).time;
+                const std::string window = element("compare", i, "window");
+                const auto inside = [&](double t) { return compare.window[0] <= t && t <= compare.window[1]; };
+                if (compare.error && complaints_.positions.contains(window) && !complaints_.touch(window) &&
+                    std::none_of(time.begin(), time.end(), inside))
+                    complaints_.add(window,
+                                    fmt::format("the file has no point between {} s and {} s, its points are between "
+                                                "{} s and {} s",
+                                                compare.window[0], compare.window[1], time.front(), time.back()),
+                                    "take a window with points in it, or look at `time_scale`");
             } catch (const std::exception& error) {
                 complaints_.add(key, fmt::format("the file cannot be used: {}", error.what()), help);
             }
@@ -370,6 +383,22 @@ class Validation {
     }
 
   private:
+    // Without a sample at which it is not a number; what is no formula at all is complained of elsewhere.
+    void finite_formula(const Compare& compare, const std::string& key) {
+        if (complaints_.touch("constants") || complaints_.touch("fluid") || !(compare.window[0] < compare.window[1]))
+            return;
+        try {
+            const Curve curve = sampled_formula(compare, all_constants(scene_));
+            for (std::size_t k = 0; k < curve.time.size(); ++k)
+                if (!std::isfinite(curve.value[k])) {
+                    complaints_.add(key, fmt::format("at t = {:g} s the formula is {}", curve.time[k], curve.value[k]),
+                                    "a reference is a number at all times of `window`");
+                    return;
+                }
+        } catch (const ExpressionError&) {
+        }
+    }
+
     void idle(const char* key, bool is_idle, const char* why, const char* help) {
         if (is_idle && complaints_.positions.contains(key) && !complaints_.touch(key)) complaints_.add(key, why, help);
     }

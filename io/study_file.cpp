@@ -115,6 +115,8 @@ class Reader {
         variant.label = variant.name;
         document_.take(at + ".label", variant.label);
         document_.take(at + ".set", variant.set);
+        for (std::size_t k = 0; k < variant.set.size(); ++k)
+            variant.set_keys.push_back(fmt::format("{}.set[{}]", at, k));
     }
 
     // Multiplies what there is with the axis's values; `named`: their names stay in front.
@@ -126,6 +128,11 @@ class Reader {
         document_.take(at + ".values", axis.values);
         if (axis.values.empty() && !complaints_.touch(at + ".values"))
             complaints_.add(at + ".values", "the axis has no values", "values = [\"1\", \"2\", \"4\"]");
+        for (std::size_t k = 1; k < axis.values.size(); ++k)
+            if (const auto same = axis.values.begin() + std::ptrdiff_t(k);
+                std::find(axis.values.begin(), same, *same) != same)
+                complaints_.add(fmt::format("{}.values[{}]", at, k), fmt::format("\"{}\" is named twice", *same),
+                                "name each value once");
         axis.coarse = int(axis.values.size());
         document_.take(at + ".coarse", axis.coarse);
         const std::vector<StudyVariant> before = std::move(study_.variants);
@@ -142,6 +149,7 @@ class Reader {
                 const std::string label = word ? value : axis.name + " = " + value;
                 made.label = named ? variant.label + ", " + label : label;
                 made.set.push_back(axis.key + "=" + value);
+                made.set_keys.push_back(fmt::format("{}.values[{}]", at, k));
                 made.place.push_back(int(k));
                 made.coarse = variant.coarse && int(k) < axis.coarse;
             }
@@ -245,9 +253,14 @@ const KeyTable& study_table() {
     return table;
 }
 
+SceneError study_error(const Study& study, std::string_view key, std::string message, std::string help) {
+    return SceneError(study.file, study.text,
+                      {{std::string(key), position_of(study.positions, key), std::move(message), std::move(help)}});
+}
+
 Study read_study(const std::filesystem::path& file) {
     Study study;
-    std::string text;
+    std::string& text = study.text;
     try {
         if (std::filesystem::is_directory(file))
             throw std::system_error(std::make_error_code(std::errc::is_a_directory));
@@ -273,6 +286,7 @@ Study read_study(const std::filesystem::path& file) {
     if (!complaints.positions.empty() && !complaints.touch("schema_version"))
         Reader(document, complaints, study).everything();
     if (!complaints.empty()) throw SceneError(file, text, complaints.in_order_of_the_file());
+    study.positions = std::move(complaints.positions);
     return study;
 }
 

@@ -2,22 +2,25 @@
 // Its keys are documented in benchmarks/STUDIES.md.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "io/scene.hpp"
 #include "io/scene_keys.hpp"
+#include "io/scene_reader.hpp"
 
 namespace aquagraph::io {
 
 // A named set of overrides: a scheme, a wall, an integrator.
 struct StudyVariant {
     std::string name, label;
-    std::vector<std::string> set;  // "fluid.scheme.reconstruction=none"
-    std::string base;              // its name before it was multiplied with the axes
-    std::vector<int> place;        // which value of each axis; empty without axes
-    bool coarse = true;            // whether the coarse version has it
+    std::vector<std::string> set;         // "fluid.scheme.reconstruction=none"
+    std::string base;                     // its name before it was multiplied with the axes
+    std::vector<int> place;               // which value of each axis; empty without axes
+    bool coarse = true;                   // whether the coarse version has it
+    std::vector<std::string> set_keys{};  // where each of `set` stands in the file: "variant[0].set[1]"
 };
 
 // A key and the values that it takes: axes are multiplied with each other and with the variants.
@@ -53,11 +56,16 @@ struct Study {
     std::vector<StudyVariant> variants;  // already multiplied with the axes
     std::vector<std::string> readme;     // names of those whose rows go into READMEs too
     std::vector<StudyCase> cases;
+    std::string text;                                 // of the file
+    std::map<std::string, SourcePosition> positions;  // dotted key ("case[0].scene", counted from 0) -> place
 };
 
 // Throws SceneError, with file, line, column and remedy, for whatever is wrong in the file itself. The scenes are not
 // read: that is for who runs them.
 Study read_study(const std::filesystem::path& file);
+
+// For what only turns out with the scenes: an error that points at `key` of a study already read.
+SceneError study_error(const Study& study, std::string_view key, std::string message, std::string help);
 
 // What stands in benchmarks/STUDIES.md.
 const KeyTable& study_table();

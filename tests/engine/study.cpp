@@ -146,8 +146,19 @@ TEST_CASE("a logarithmic axis has labels where it is drawn") {
         for (std::size_t k = 0; k < found.size(); ++k) CHECK(found[k] == doctest::Approx(wanted[k]));
     };
     near(engine::logarithmic_tics(0.3, 30), {0.5, 1, 2, 5, 10, 20});
-    near(engine::logarithmic_tics(25, 45), {30, 40});
+    near(engine::logarithmic_tics(7.7, 14.5), {8, 10, 12});
+    near(engine::logarithmic_tics(25, 45), {25, 30, 35, 40});
     near(engine::logarithmic_tics(0.0118, 0.0132), {0.012, 0.013});
+}
+
+TEST_CASE("names in a plot leave out what all of them say") {
+    using Labels = std::vector<std::string>;
+    CHECK(engine::telling_labels({"css, p = 1, fixed", "css, p = 2, fixed"}) == Labels{"p = 1", "p = 2"});
+    CHECK(engine::telling_labels({"css, p = 1", "cps, p = 2"}) == Labels{"css, p = 1", "cps, p = 2"});
+    CHECK(engine::telling_labels({"Riemann, RK3", "Riemann"}) == Labels{"Riemann, RK3", "Riemann"});
+    CHECK(engine::telling_labels({"same", "same"}) == Labels{"same", "same"});
+    CHECK(engine::telling_labels({"css, p = 1"}) == Labels{"css, p = 1"});
+    CHECK(engine::telling_labels({}) == Labels{});
 }
 
 TEST_CASE("a plot keeps its size with many variants: their names stand below it") {
@@ -180,8 +191,8 @@ TEST_CASE("a plot keeps its size with many variants: their names stand below it"
     };
     const auto height = [](const std::string& svg) { return std::stoi(svg.substr(svg.find("height=\"") + 8)); };
     const std::string one = drawn(1, true), many = drawn(18, false);
-    for (int v = 0; v < 18; ++v) CHECK(many.find("cps, p = " + std::to_string(v)) != std::string::npos);
-    CHECK(one.find("cps, p = 0") == std::string::npos);  // nothing to tell apart
+    for (int v = 0; v < 18; ++v) CHECK(many.find(">p = " + std::to_string(v)) != std::string::npos);
+    CHECK(one.find("p = 0") == std::string::npos);  // nothing to tell apart
     CHECK(height(many) > height(one) + 50);
 }
 
@@ -274,6 +285,16 @@ TEST_CASE("a run that takes too long is stopped") {
     CHECK(printed.find("stopped after 0.3 s") != std::string::npos);
 }
 
+TEST_CASE("a file for the results that cannot be written is found out before anything is computed") {
+    Bench bench;
+    auto options = bench.options();
+    for (const char* place : {"patch/scene.toml/RESULTS.md", "patch"}) {
+        options.out = bench.folder / place;
+        CHECK_THROWS_AS(bench.run(options), std::system_error);
+        CHECK_FALSE(std::filesystem::exists(bench.folder / "runs"));
+    }
+}
+
 TEST_CASE("a part of a study is printed, not written") {
     Bench bench;
     auto options = bench.options();
@@ -314,11 +335,24 @@ TEST_CASE("mistakes in a study are named with their place") {
     CHECK(refused("schema_version = 1\n").find("no [[case]]") != std::string::npos);
     CHECK(refused("schema_version = 2\n").find("reads a study") != std::string::npos);
 
-    Bench bad_override(with(matrix, "fluid.scheme.reconstruction=none", "fluid.recon=none"));
-    CHECK_THROWS_WITH_AS(bad_override.run(bad_override.options()), doctest::Contains("--set fluid.recon=none"),
-                         io::SceneError);
-    Bench no_label(matrix + "error = \"drag\"\n");
-    CHECK_THROWS_WITH_AS(no_label.run(no_label.options()), doctest::Contains("drag"), std::invalid_argument);
+    const auto refused_with_scene = [](const std::string& study, const char* says) {
+        CAPTURE(study);
+        Bench bench(study);
+        CHECK_THROWS_WITH_AS(bench.run(bench.options()), doctest::Contains(says), io::SceneError);
+        CHECK_FALSE(std::filesystem::exists(bench.folder / "runs"));
+    };
+    refused_with_scene(with(matrix, "fluid.scheme.reconstruction=none", "fluid.recon=none"),
+                       "tiny.study.toml:8:8: error: scene.toml refuses fluid.recon=none: unknown key `recon`");
+    refused_with_scene(with(matrix, "fluid.scheme.reconstruction=none", "fluid.cfl=7"),
+                       "tiny.study.toml:8:8: error: scene.toml refuses fluid.cfl=7: `cfl` must be in ]0, 1]");
+    refused_with_scene(matrix + "set = [\"fluid.cfl\"]\n", "tiny.study.toml:12:8: error: scene.toml refuses fluid.cfl");
+    refused_with_scene(matrix + "resolution_key = \"fluid.spacin\"\n",
+                       "tiny.study.toml:11:16: error: scene.toml refuses");
+    refused_with_scene(matrix + "[[axis]]\nname = \"k\"\nkey = \"fluid.cfl\"\nvalues = [\"0.2\", \"-1\"]\n",
+                       "tiny.study.toml:15:18: error: scene.toml refuses fluid.cfl=-1");
+    refused_with_scene(matrix + "error = \"energi\"\n", "tiny.study.toml:12:9: error: the scene has no [[compare]]");
+    refused_with_scene(matrix + "curve = \"discret\"\n",
+                       "tiny.study.toml:12:9: error: history.csv will have no column \"discret\"");
 }
 
 TEST_CASE("a study of a body without water counts nodes and Newton iterations") {

@@ -98,6 +98,7 @@ TEST_CASE("axes are multiplied, patterns choose among the products, coarse takes
     refused("speedup = \"p\"", "speedup = \"q\"", "there is no axis \"q\"");
     refused("curve = \"tip_x\"\n", "", "there is no `curve`");
     refused("values = [\"-0.3\"]", "values = []", "the axis has no values");
+    refused("values = [\"-0.3\"]", "values = [\"-0.3\", \"-0.3\"]", "\"-0.3\" is named twice");
 }
 
 TEST_CASE("runs are compared with their reference, and times with the first value of the axis") {

@@ -107,7 +107,7 @@ io::Compare compare_to(const std::filesystem::path& file) {
 TEST_CASE("references come with any separator, words between, in any order") {
     ScratchFolder folder;
     const auto file =
-        folder.write("curve.txt", "# time value\nt;v\n2.0, 20\r\n+1.0\t10\n 0.5 5e0 7\n1.5;15\n\nnan 3\n");
+        folder.write("curve.txt", "# time value\nt;v\n2.0, 20\r\n+1.0\t10\n# more\n 0.5 5e0 7\n1.5;15\n \r\n\n");
     io::Compare compare = compare_to(file);
     io::Curve curve = io::read_reference(compare);
     CHECK(curve.time == std::vector<double>{0.5, 1, 1.5, 2});
@@ -118,6 +118,17 @@ TEST_CASE("references come with any separator, words between, in any order") {
     curve = io::read_reference(compare);
     CHECK(curve.time.front() == 1);
     CHECK(curve.value.front() == -2);
+}
+
+TEST_CASE("a point of a reference that cannot be read is not passed over") {
+    ScratchFolder folder;
+    for (const auto& [text, says] :
+         {std::pair{"0, 0\n1, two\n2, 4\n", ":2: two numbers are expected, but there stands `1, two`"},
+          std::pair{"t, v\n0, 0\n1, nan\n", ":3: two numbers"}, std::pair{"0, 0\n1\n", ":2: two numbers"},
+          std::pair{"0, 0\n\ninf 3\n", ":3: two numbers"}, std::pair{"t, v\n", "no line with two numbers"}}) {
+        const auto file = folder.write("curve.csv", text);
+        CHECK_THROWS_WITH_AS(io::read_reference(compare_to(file)), doctest::Contains(says), std::runtime_error);
+    }
 }
 
 TEST_CASE("errors against known functions") {

@@ -399,6 +399,8 @@ TEST_CASE("comparisons") {
     expect(end, compare("file = \".\"\n"), 37, 8, "the file cannot be used", "two columns of numbers");
     expect(end, compare("file = \"curve.csv\"\nwindow = [0.5, 0.1]\n"), 38, 10,
            "`window` runs backwards, from 0.5 s to 0.1 s", "from < to");
+    expect(end, compare("file = \"curve.csv\"\nwindow = [7, 8]\n"), 38, 10, "no point between 7 s and 8 s",
+           "time_scale");
     expect(end, compare("file = \"curve.csv\"\ntime_scale = 0\n"), 38, 14, "`time_scale` must be > 0", "seconds");
     CHECK(error_of(with(sound, end, compare("file = \"curve.csv\"\n"))) == "");
 }

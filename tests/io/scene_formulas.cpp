@@ -83,6 +83,10 @@ TEST_CASE("a formula that is none is named with its place and what helps") {
     const std::string compare = "[[compare]]\ncolumn = \"particles\"\nlabel = \"l\"\n";
     CHECK(contains(refusal(tank + compare), "nothing to compare with"));
     CHECK(contains(refusal(tank + compare + "formula = \"x\"\n"), "nothing is called \"x\""));
+    CHECK(contains(refusal(tank + compare + "formula = \"1/(t - t)\"\n"),
+                   "scene.toml:19:11: error: at t = 0 s the formula is"));
+    CHECK(contains(refusal(tank + compare + "formula = \"sqrt(0.5 - t)\"\n"), "the formula is"));
+    CHECK(refusal(tank + compare + "formula = \"sqrt(0.5 - t)\"\nwindow = [0, 0.5]\n").empty());
     CHECK(contains(refusal(tank + compare + "formula = \"1\"\nfile = \"scene.toml\"\n"), "both"));
 }
 

@@ -58,9 +58,12 @@ TEST_CASE("what only shows with the mesh at hand is refused as well") {
 TEST_CASE("a comparison with a column that will not be there is refused before the run") {
     const ScratchFolder references;
     const std::string file = references.write("curve.csv", "0,0\n1,1\n").string();
-    const Call call(run, gate + "[[compare]]\ncolumn = \"tipp_x\"\nfile = \"" + file + "\"\nlabel = \"x\"\n");
-    check_refused(call);
-    CHECK(call.err.find("tip_x") != std::string::npos);
+    const std::string scene = gate + "[[compare]]\ncolumn = \"tipp_x\"\nfile = \"" + file + "\"\nlabel = \"x\"\n";
+    for (const std::vector<std::string>& command : {run, {"check", "SCENE"}}) {
+        const Call call(command, scene);
+        check_refused(call);
+        CHECK(call.err.find("did you mean \"tip_x\"") != std::string::npos);
+    }
 }
 
 TEST_CASE("a missing scene is named") {
