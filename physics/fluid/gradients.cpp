@@ -1,74 +1,11 @@
 #include "physics/fluid/gradients.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <type_traits>
 
 #include "physics/fluid/pair_loop.hpp"
 
 namespace aquagraph::fluid {
-
-namespace {
-// cos(⅔ acos(s)) on 0 ≤ s ≤ 1: analytic but for s = -1, so that its Chebyshev series falls by 5.8 per term.
-class CosineOfTwoThirds {
-  public:
-    CosineOfTwoThirds() {
-        constexpr double pi = std::numbers::pi;
-        for (int k = 0; k < terms; ++k) {
-            for (int j = 0; j < terms; ++j) {
-                const double angle = pi * (j + 0.5) / terms;
-                chebyshev_[k] +=
-                    2.0 / terms * std::cos(2.0 / 3 * std::acos(0.5 + 0.5 * std::cos(angle))) * std::cos(k * angle);
-            }
-        }
-        chebyshev_[0] *= 0.5;
-    }
-    double operator()(double s) const {  // Clenshaw's recurrence
-        const double x = 2 * (2 * s - 1);
-        double next = 0, after = 0;
-        for (int k = terms - 1; k > 0; --k) {
-            const double here = x * next - after + chebyshev_[k];
-            after = next;
-            next = here;
-        }
-        return 0.5 * x * next - after + chebyshev_[0];
-    }
-
-  private:
-    static constexpr int terms = 22;
-    double chebyshev_[terms] = {};
-};
-const CosineOfTwoThirds cosine_of_two_thirds;
-}  // namespace
-
-// The smallest eigenvalue by the trigonometric solution of the characteristic equation, scaled: A = m + ρ C with
-// tr C = 0, tr C² = 6, whose eigenvalues are 2 cos((acos(det C/2) + 2πk)/3).
-template <>
-double invert_moment<3>(double (&m)[6], double threshold) {
-    const double mean = (m[0] + m[3] + m[5]) / 3, xx = m[0] - mean, yy = m[3] - mean, zz = m[5] - mean;
-    const double xy = m[1], xz = m[2], yz = m[4];
-    const double radius2 = (xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz)) / 6;
-    double smallest = mean;
-    if (radius2 > 0) {
-        const double radius = std::sqrt(radius2),
-                     determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-        const double half = std::clamp(0.5 * determinant / (radius2 * radius), -1.0, 1.0);
-        smallest -= 2 * radius * cosine_of_two_thirds(std::sqrt(0.5 - 0.5 * half));
-    }
-    if (smallest > threshold) {
-        const double a = m[3] * m[5] - m[4] * m[4], b = m[2] * m[4] - m[1] * m[5], c = m[1] * m[4] - m[2] * m[3];
-        const double inverse = 1 / (m[0] * a + m[1] * b + m[2] * c);
-        const double d = m[0] * m[5] - m[2] * m[2], e = m[1] * m[2] - m[0] * m[4], f = m[0] * m[3] - m[1] * m[1];
-        m[0] = a * inverse;
-        m[1] = b * inverse;
-        m[2] = c * inverse;
-        m[3] = d * inverse;
-        m[4] = e * inverse;
-        m[5] = f * inverse;
-    }
-    return smallest;
-}
 
 namespace {
 
@@ -182,22 +119,22 @@ struct GradientPass {
             const double smallest = invert_moment<D>(b, fullness_to_reconstruct);
             fullness[first + l] = smallest;
             const bool full = smallest > fullness_to_reconstruct;
-            double B[D][D];
-            for (int a = 0, k = 0; a < D; ++a)
-                for (int c = a; c < D; ++c, ++k) B[a][c] = B[c][a] = full ? b[k] : 0.0;
+            double B[D * D];
+            for (int k = 0; k < moments; ++k)
+                B[row<D>[k] * D + column<D>[k]] = B[column<D>[k] * D + row<D>[k]] = full ? b[k] : 0.0;
             if constexpr (pressure)
                 for (int a = 0; a < D; ++a) {
                     double value = 0;
-                    for (int c = 0; c < D; ++c) value += B[a][c] * total[row_of_p + c][l];
+                    for (int c = 0; c < D; ++c) value += B[a * D + c] * total[row_of_p + c][l];
                     grad_p[a][first + l] = value;
                 }
             if constexpr (velocity)
-                for (int e = 0; e < D; ++e)
-                    for (int a = 0; a < D; ++a) {
-                        double value = 0;
-                        for (int c = 0; c < D; ++c) value += B[a][c] * total[row_of_v + e * D + c][l];
-                        grad_v[e][a][first + l] = value;
-                    }
+                for (int k = 0; k < D * D; ++k) {
+                    const int e = k / D, a = k % D;
+                    double value = 0;
+                    for (int c = 0; c < D; ++c) value += B[a * D + c] * total[row_of_v + e * D + c][l];
+                    grad_v[e][a][first + l] = value;
+                }
         }
     }
 };
