@@ -119,8 +119,8 @@ coupling::Interface make_interface(const io::Scene& scene, Model<2>& model) {
                        .most = scene.coupling.ratio,
                        .p = scene.coupling.ratio_control ? 1 : scene.coupling.ratio};
     try {
-        interface.surface =
-            coupling::WetSurface(model.solid->mesh(), scene.solid->wet, scene.solid->name, panels_of(model));
+        interface.surface = coupling::WetSurface(model.solid->mesh(), scene.solid->wet, scene.solid->name,
+                                                 panels_of(model), scene.coupling.smoothing * scene.fluid->spacing);
     } catch (const std::invalid_argument& error) {
         throw io::scene_error(scene, "solid.wet", error.what(), "name surfaces of the mesh");
     }

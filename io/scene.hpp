@@ -111,6 +111,7 @@ struct CouplingScene {
     coupling::LoadMethod load = coupling::LoadMethod::force_conservative;
     double energy_cycles = 20;  // over which the energy conservative load averages
     coupling::Extrapolation extrapolation = coupling::Extrapolation::linear;
+    double smoothing = 0.5;  // ℓ over Δx: what the water sees of the wet nodes (wet_smoothing.hpp)
     coupling::StepRule step_rule = coupling::StepRule::fixed;
     double step_fraction = 0.8;  // of the CFL step, at which the steps of a cycle are fixed (6.4); predicted: 1
     coupling::Relaxation relaxation = coupling::Relaxation::quasi_newton;

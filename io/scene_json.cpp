@@ -156,6 +156,7 @@ Json to_json(const CouplingScene& coupling) {
                  {"ratio_control", coupling.ratio_control},
                  {"load", word(load_words, coupling.load)},
                  {"extrapolation", word(extrapolation_words, coupling.extrapolation)},
+                 {"smoothing", coupling.smoothing},
                  {"step_rule", word(step_rule_words, coupling.step_rule)},
                  {"step_fraction", coupling.step_fraction}};
     if (coupling.load == coupling::LoadMethod::energy_conservative) json["energy_cycles"] = coupling.energy_cycles;

@@ -82,6 +82,10 @@ constexpr auto keys = std::to_array<SceneKey>({
      "over which the energy-conservative load averages"},
     {"coupling", "extrapolation", K::choice, false, "", any, "none linear quadratic", "linear",
      "how wet nodes move between two solid steps; none: they stand still, to show why they should not"},
+    {"coupling", "smoothing", K::number, false, "Δx", closed(0, 4), "", "0.5",
+     "ℓ: waves along the wet surface that are shorter than about 4 ℓ are taken out of what the water sees of it, and "
+     "of "
+     "its load; 0: none, then shorter steps or elements finer than particles may fail"},
     {"coupling", "step_rule", K::choice, false, "", any, "fixed predicted", "fixed",
      "cps and iterated (css chooses every step anew; `predicted` is refused there): steps of a cycle are fixed to "
      "`step_fraction` of the present CFL step, or to the trend of the CFL step "

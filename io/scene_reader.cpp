@@ -72,6 +72,7 @@ class Filler {
         choose("coupling.load", coupling.load, load_words);
         document_.take("coupling.energy_cycles", coupling.energy_cycles);
         choose("coupling.extrapolation", coupling.extrapolation, extrapolation_words);
+        document_.take("coupling.smoothing", coupling.smoothing);
         choose("coupling.step_rule", coupling.step_rule, step_rule_words);
         if (coupling.step_rule == coupling::StepRule::predicted) coupling.step_fraction = 1;
         document_.take("coupling.step_fraction", coupling.step_fraction);

@@ -7,9 +7,10 @@
 namespace aquagraph::coupling {
 
 WetSurface::WetSurface(const solid::Mesh<2>& mesh, const std::vector<std::string>& surfaces, const std::string& name,
-                       fluid::Panels<2>& panels)
+                       fluid::Panels<2>& panels, double smoothing)
     : first_vertex_(panels.position.size()), wall_(int(panels.names.size())) {
     panels.names.push_back(name);
+    const std::size_t first_panel = panels.panels.size();
     std::map<int, int> vertex_of_node;
     const auto vertex = [&](int node) {
         const auto [place, is_new] = vertex_of_node.try_emplace(node, int(panels.position.size()));
@@ -34,16 +35,38 @@ WetSurface::WetSurface(const solid::Mesh<2>& mesh, const std::vector<std::string
     motion.position.assign(panels.position.begin() + std::ptrdiff_t(first_vertex_), panels.position.end());
     motion.velocity.assign(nodes_.size(), Vec2::Zero());
     motion.acceleration = motion.velocity;
+    nodal_ = position_ = velocity_ = force_ = motion.velocity;
+
+    std::vector<std::array<std::size_t, 2>> segments;
+    for (std::size_t k = first_panel; k < panels.panels.size(); ++k) {
+        const auto& end = panels.panels[k].vertex;
+        segments.push_back({std::size_t(end[0]) - first_vertex_, std::size_t(end[1]) - first_vertex_});
+    }
+    smoothing_ = WetSmoothing(motion.position, segments, smoothing);
+}
+
+void WetSurface::collect(std::span<const double> nodal, std::vector<Vec2>& wet) const {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        const std::size_t n = 2 * std::size_t(nodes_[k]);
+        wet[k] = Vec2(nodal[n], nodal[n + 1]);
+    }
+}
+
+void WetSurface::smooth(std::span<const double> positions, std::span<const double> velocities) {
+    const bool changes = smoothing_.changes();
+    collect(positions, changes ? nodal_ : position_);
+    if (changes) smoothing_.smooth_positions(nodal_, position_);
+    collect(velocities, changes ? nodal_ : velocity_);
+    if (changes) smoothing_.smooth(nodal_, velocity_);
 }
 
 void WetSurface::take(std::span<const double> positions, std::span<const double> velocities, double elapsed) {
+    smooth(positions, velocities);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-        const std::size_t n = 2 * std::size_t(nodes_[k]);
-        const Vec2 velocity(velocities[n], velocities[n + 1]);
         motion.acceleration[k] =
-            motion.known && elapsed > 0 ? Vec2((velocity - motion.velocity[k]) / elapsed) : Vec2(Vec2::Zero());
-        motion.position[k] = Vec2(positions[n], positions[n + 1]);
-        motion.velocity[k] = velocity;
+            motion.known && elapsed > 0 ? Vec2((velocity_[k] - motion.velocity[k]) / elapsed) : Vec2(Vec2::Zero());
+        motion.position[k] = position_[k];
+        motion.velocity[k] = velocity_[k];
     }
     motion.known = true;
     motion.cycle = 0;
@@ -102,12 +125,10 @@ void WetSurface::extrapolated(std::vector<double>& y, double cycle) const {
 }
 
 void WetSurface::state_of(std::span<const double> positions, std::span<const double> velocities, std::vector<double>& y,
-                          double cycle) const {
+                          double cycle) {
     y.resize(4 * nodes_.size());
-    for (std::size_t k = 0; k < nodes_.size(); ++k) {
-        const std::size_t n = 2 * std::size_t(nodes_[k]);
-        put(y, k, {positions[n], positions[n + 1]}, cycle * Vec2(velocities[n], velocities[n + 1]));
-    }
+    smooth(positions, velocities);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) put(y, k, position_[k], cycle * velocity_[k]);
 }
 
 void WetSurface::head_for(std::span<const double> y, double cycle) {
@@ -144,12 +165,17 @@ double WetSurface::squared_normal_motion(const fluid::Panels<2>& panels, const s
     return sum;
 }
 
-void WetSurface::to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) const {
+void WetSurface::to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) {
+    std::span<const Vec2> forces(vertex_forces.data() + first_vertex_, nodes_.size());
+    if (smoothing_.changes()) {
+        smoothing_.gather(forces, force_);
+        forces = force_;
+    }
     std::fill(nodal_forces.begin(), nodal_forces.end(), 0.0);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
         const std::size_t n = 2 * std::size_t(nodes_[k]);
-        nodal_forces[n] = vertex_forces[first_vertex_ + k].x();
-        nodal_forces[n + 1] = vertex_forces[first_vertex_ + k].y();
+        nodal_forces[n] = forces[k].x();
+        nodal_forces[n + 1] = forces[k].y();
     }
 }
 

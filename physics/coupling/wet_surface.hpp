@@ -6,12 +6,15 @@
 //     none       x, v                  frozen, to show why they should not be
 // Where fluid and solid of a cycle are iterated, the end of the cycle is known as a guess, and wet nodes follow the
 // cubic that has the places and velocities of both its ends.
+//
+// What the water sees of the nodes' motion may be smoothed, and what it exerts on them then is too: wet_smoothing.hpp.
 #pragma once
 #include <span>
 #include <string>
 #include <vector>
 
 #include "physics/coupling/choices.hpp"
+#include "physics/coupling/wet_smoothing.hpp"
 #include "physics/fluid/walls/panels.hpp"
 #include "physics/solid/mesh.hpp"
 
@@ -19,7 +22,7 @@ namespace aquagraph::coupling {
 
 using fluid::Vec2;
 
-// What is known of the wet nodes since the last exchange.
+// What the water knows of the wet nodes since the last exchange, smoothed.
 struct WetMotion {
     std::vector<Vec2> position, velocity, acceleration;
     bool known = false;                            // whether an exchange has been made
@@ -38,19 +41,20 @@ class WetSurface {
     WetMotion motion;
 
     WetSurface() = default;
-    // Adds the panels of these surfaces to `panels`, as one wall. Throws std::invalid_argument for an unknown surface.
+    // Adds the panels of these surfaces to `panels`, as one wall. smoothing: ℓ of wet_smoothing.hpp [m]. Throws
+    // std::invalid_argument for an unknown surface.
     WetSurface(const solid::Mesh<2>& mesh, const std::vector<std::string>& surfaces, const std::string& name,
-               fluid::Panels<2>& panels);
+               fluid::Panels<2>& panels, double smoothing = 0);
 
     // Takes the solid's state, interleaved x and y per node, `elapsed` seconds after the last one (0: unknown, no
     // acceleration is taken).
     void take(std::span<const double> positions, std::span<const double> velocities, double elapsed = 0);
-    // The state at the end of a cycle as one vector, positions and velocities × its length [m] of each wet node: at the
-    // last exchange, as extrapolated, and as the solid has it.
+    // The state at the end of a cycle as one vector, positions and velocities × its length [m] of each wet node, all of
+    // them smoothed: at the last exchange, as extrapolated, and as the solid has it.
     void state(std::vector<double>& y, double cycle) const;
     void extrapolated(std::vector<double>& y, double cycle) const;
     void state_of(std::span<const double> positions, std::span<const double> velocities, std::vector<double>& y,
-                  double cycle) const;
+                  double cycle);
     // From now on nodes move towards this state.
     void head_for(std::span<const double> y, double cycle);
 
@@ -62,8 +66,8 @@ class WetSurface {
     // the body's nodes, interleaved [m × the square of φ's unit].
     double squared_normal_motion(const fluid::Panels<2>& panels, const std::vector<bool>& in_contact,
                                  std::span<const double> nodal) const;
-    // Adds the forces on vertices (one per vertex of `panels`) to nodal forces, interleaved; clears them first.
-    void to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces) const;
+    // The nodal forces, interleaved, of these forces on vertices (one per vertex of `panels`); 0 at dry nodes.
+    void to_nodes(const std::vector<Vec2>& vertex_forces, std::span<double> nodal_forces);
 
     template <class Archive>
     void archive(Archive& fields) {  // for a checkpoint: the last exchange
@@ -76,9 +80,15 @@ class WetSurface {
   private:
     Vec2 position_at(std::size_t k, double ahead) const;
     Vec2 velocity_at(std::size_t k, double ahead) const;
+    // One Vec2 per wet node, of values at all nodes, interleaved.
+    void collect(std::span<const double> nodal, std::vector<Vec2>& wet) const;
+    void smooth(std::span<const double> positions, std::span<const double> velocities);  // into the scratch below
 
-    std::vector<int> nodes_;        // node of each vertex
-    std::size_t first_vertex_ = 0;  // in panels
+    WetSmoothing smoothing_;
+    std::vector<Vec2> nodal_, position_, velocity_;  // scratch: before smoothing, and after …
+    std::vector<Vec2> force_;                        // … and of forces
+    std::vector<int> nodes_;                         // node of each vertex
+    std::size_t first_vertex_ = 0;                   // in panels
     int wall_ = -1;
 };
 

@@ -116,19 +116,78 @@ TEST_CASE("beside rigid walls the body gets the load of its own ghosts only") {
     // A corner between gate and floor belongs to whichever of the two the line of sight enters.
     const engine::Model<2>& model = *built.model;
     Vec2 sum = Vec2::Zero();
-    std::size_t rigid = 0;
+    std::size_t rigid = 0, shared = 0;
     each_wall_pair(model, [&](std::size_t i, std::size_t g, const Vec2& force) {
         const fluid::Ghost& ghost = model.walls->ghosts[g];
         int panel = ghost.panel;
-        if (ghost.corner >= 0) panel = model.walls->visibility.entry_panel(i, g);
+        Vec2 share = force;
+        if (ghost.corner >= 0) {
+            panel = model.walls->visibility.entry_panel(i, g);
+            for (const int floor : model.walls->corners[std::size_t(ghost.corner)].floor) {
+                if (floor < 0) continue;
+                const Vec2& up = model.walls->panels.normal[std::size_t(floor)];
+                share -= force.dot(up) * up;  // what goes across the floor is the floor's
+                if (panel >= 0 && model.walls->panels.panels[std::size_t(panel)].wet) ++shared;
+            }
+        }
         REQUIRE(panel >= 0);
         if (model.walls->panels.panels[std::size_t(panel)].wet)
-            sum += force;
+            sum += share;
         else
             ++rigid;
     });
     CHECK(rigid > 1000);
+    CHECK(shared > 0);
     CHECK((load_of(built) + sum).norm() <= 1e-12 * sum.norm());
+}
+
+TEST_CASE("the corner between a body and its floor moves as its place does, and bears what is conjugate to that") {
+    Built built(gate);
+    built.start();
+    disorder(built, Bend{0});
+    for (Vec2& v : built.model->interface->surface.motion.velocity) v += Vec2(3, -5);
+    built.compute_loads();
+    engine::Model<2>& model = *built.model;
+    fluid::GhostWalls<2>& walls = *model.walls;
+    // At the floor, on the water's side; the vertical motion of the gate is not the corner's.
+    std::size_t standing = 0;
+    const double h = 1e-7;
+    for (const fluid::Corner<2>& corner : walls.corners) {
+        if (corner.floor[0] < 0) continue;
+        ++standing;
+        fluid::Panels<2> later = walls.panels;
+        for (std::size_t k = 0; k < later.position.size(); ++k) later.position[k] += h * later.velocity[k];
+        later.update_geometry();
+        fluid::Corner<2> moved = corner;
+        moved.update(later);
+        CHECK(((moved.point - corner.point) / h - corner.velocity).norm() < 1e-6);
+        CHECK(std::fabs(corner.velocity.y()) < 1e-14);
+        CHECK(std::fabs(corner.velocity.x()) > 0.1);
+    }
+    CHECK(standing >= 1);
+
+    double power = 0, scale = 0;
+    each_wall_pair(model, [&](std::size_t i, std::size_t g, const Vec2& force) {
+        const fluid::Ghost& ghost = walls.ghosts[g];
+        const int panel = ghost.corner < 0 ? ghost.panel : walls.visibility.entry_panel(i, g);
+        if (!walls.panels.panels[std::size_t(panel)].wet) return;
+        Vec2 velocity;
+        if (ghost.corner >= 0) {
+            velocity = walls.corners[std::size_t(ghost.corner)].velocity;
+        } else {
+            const auto k = std::size_t(panel);
+            const auto shape = walls.panels.shape_functions_on(
+                k, Vec2(model.fluid->particles.x[0][ghost.parent], model.fluid->particles.x[1][ghost.parent]));
+            velocity = shape[0] * walls.panels.velocity[std::size_t(walls.panels.panels[k].vertex[0])] +
+                       shape[1] * walls.panels.velocity[std::size_t(walls.panels.panels[k].vertex[1])];
+        }
+        power -= force.dot(velocity);
+        scale += force.norm() * velocity.norm();
+    });
+    double nodal_power = 0;
+    for (std::size_t k = 0; k < model.interface->vertex_forces.size(); ++k)
+        nodal_power += model.interface->vertex_forces[k].dot(walls.panels.velocity[k]);
+    CHECK(std::fabs(nodal_power - power) <= 1e-12 * scale);
 }
 
 TEST_CASE("forces keep their moment on the way from ghosts to nodes, and their power") {

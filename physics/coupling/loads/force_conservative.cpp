@@ -143,15 +143,24 @@ void ForceConservativeLoad::spread(const fluid::Particles<2>& particles, const f
     vertex_forces.assign(walls.panels.position.size(), Vec2::Zero());
     for (std::size_t k = 0; k < sources_.size(); ++k) {
         const Source& source = sources_[k];
-        // A corner's ghost acts at the corner: there the wall velocity that it gives to the fluid is taken.
+        // A corner's ghost acts at the corner: there the wall velocity that it gives to the fluid is taken. Of a corner
+        // that slides along a floor the part across the floor is the floor's, in velocity and in force.
         const fluid::Ghost& ghost = walls.ghosts[source.ghost];
         const std::size_t p = std::size_t(source.panel);
         const Vec2 x =
             ghost.corner < 0 ? walls.before_wall(particles, ghost) : walls.corners[std::size_t(ghost.corner)].point;
         const double s =
             std::clamp((x - walls.panels.start(p)).dot(walls.panels.tangent[p]) / walls.panels.measure[p], 0.0, 1.0);
-        vertex_forces[std::size_t(walls.panels.panels[p].vertex[0])] += (1 - s) * force_[k];
-        vertex_forces[std::size_t(walls.panels.panels[p].vertex[1])] += s * force_[k];
+        Vec2 force = force_[k];
+        if (ghost.corner >= 0) {
+            for (const int f : walls.corners[std::size_t(ghost.corner)].floor)
+                if (f >= 0 && std::size_t(f) != p) {
+                    const Vec2& up = walls.panels.normal[std::size_t(f)];
+                    force -= force.dot(up) * up;
+                }
+        }
+        vertex_forces[std::size_t(walls.panels.panels[p].vertex[0])] += (1 - s) * force;
+        vertex_forces[std::size_t(walls.panels.panels[p].vertex[1])] += s * force;
     }
 }
 

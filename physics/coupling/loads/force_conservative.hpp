@@ -4,7 +4,8 @@
 // and in viscous water the viscous part of the same pairs, so that the total on the body is exactly minus the total
 // that the body exerts on the fluid. A ghost's share goes to the two ends of its panel by linear shape functions at the
 // foot of its perpendicular; the wall velocity that the fluid sees is interpolated with the same functions, so force
-// and velocity are conjugate.
+// and velocity are conjugate. Where a body stands on a floor, the corner between them moves along the floor alone, and
+// what its ghosts exert across the floor is left to the floor.
 //
 // Sums run around ghosts here, the other way round than in the flux pass; pairs are the same, with the same masks.
 #pragma once

@@ -13,6 +13,15 @@ const double least_concave_turn = 5 * std::numbers::pi / 180;  // below it the w
 double turn(const Panels<2>& panels, std::size_t k, std::size_t l) {
     return std::atan2(cross(panels.tangent[k], panels.tangent[l]), panels.tangent[k].dot(panels.tangent[l]));
 }
+
+template <int D>
+Vec<D> velocity_at(const Panels<D>& walls, std::size_t panel, const Vec<D>& x) {
+    const auto shape = walls.shape_functions_on(panel, x);
+    Vec<D> velocity = Vec<D>::Zero();
+    for (std::size_t v = 0; v < D; ++v)
+        velocity += shape[v] * walls.velocity[std::size_t(walls.panels[panel].vertex[v])];
+    return velocity;
+}
 }  // namespace
 
 template <int D>
@@ -23,11 +32,22 @@ void Corner<D>::update(const Panels<D>& walls) {
             if (f >= 0) x -= walls.height(std::size_t(f), x) * walls.normal[std::size_t(f)];
         return x;
     };
+    // A corner that slides along a floor leaves it as little as its place does: water in the corner is neither pushed
+    // up nor sucked down by how the body above the floor stretches.
+    const auto slide = [&](int v) {
+        Vec<D> u = walls.velocity[std::size_t(v)];
+        for (const int f : floor)
+            if (f >= 0) {
+                const auto k = std::size_t(f);
+                u -= (u - velocity_at(walls, k, walls.position[std::size_t(v)])).dot(walls.normal[k]) * walls.normal[k];
+            }
+        return u;
+    };
     point = place(vertex[0]);
-    velocity = walls.velocity[std::size_t(vertex[0])];
+    velocity = slide(vertex[0]);
     if constexpr (D == 3) {
         edge = place(vertex[1]) - point;
-        edge_velocity = walls.velocity[std::size_t(vertex[1])] - velocity;
+        edge_velocity = slide(vertex[1]) - velocity;
     }
 }
 
