@@ -101,7 +101,10 @@ solid::Options<D> solid_options(const io::Scene& scene) {
     options.alpha = from.alpha;
     options.mass_damping = from.mass_damping;
     options.stiffness_damping = from.stiffness_damping;
-    if (scene.fluid) options.residual_tolerance = residual_tolerance_in_water;
+    if (scene.fluid) {
+        options.residual_tolerance = residual_tolerance_in_water;
+        options.first_accelerations = solid::FirstAccelerations::resolved;  // the water's load is there at once
+    }
     for (const io::Clamp& clamp : from.clamps) {
         solid::Clamp<D>& made = options.clamps.emplace_back();
         made.set = clamp.set;

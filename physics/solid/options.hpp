@@ -17,6 +17,9 @@ enum class LinearSolver { automatic, cholesky, conjugate_gradients };
 // Gauss points of quadratic elements: 2^D, with which they do not lock, but with which a single element, or a column of
 // hexahedra one by one across, has modes without energy; or 3^D (tetrahedra 4 or 14).
 enum class Integration { reduced, full };
+// Of the loads at the start, or as far as a step resolves them: a load that is set on suddenly gives light nodes
+// accelerations of which the velocities keep (1 - γ) Δt a.
+enum class FirstAccelerations { of_mass, resolved };
 // What elements of 4 or 8 nodes do: enhanced assumed strains, or displacements alone, which lock.
 enum class LinearElements { enhanced, displacement };
 
@@ -128,7 +131,8 @@ struct Options {
     Integration integration = Integration::reduced;
     std::array<double, D> gravity{};  // [m/s²]
     Scheme scheme = Scheme::hht;
-    double alpha = -0.3;  // αs in ]-1/3, 0]
+    double alpha = -0.3;                                                   // αs in ]-1/3, 0]
+    FirstAccelerations first_accelerations = FirstAccelerations::of_mass;  // implicit schemes
     // Rayleigh's damping (ψ = α/(2ω) + βω/2 of the critical value), ≥ 0: of the masses of the nodes [1/s], and of the
     // stiffness at rest, carried along by rotations (viscous_elements.hpp) [s].
     double mass_damping = 0, stiffness_damping = 0;

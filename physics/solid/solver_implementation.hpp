@@ -101,7 +101,7 @@ struct Solver<D>::Implementation {
     void abandon_step();
     void accept_step(BlockLoop loop);
     void keep_forces();
-    void find_initial_accelerations(BlockLoop loop);
+    void find_initial_accelerations(double dt, BlockLoop loop);
     void multiply_mass(std::span<const double> x, std::span<double> y, BlockLoop loop) const;  // of the scheme
 
     // explicit_step.cpp

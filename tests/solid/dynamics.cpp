@@ -22,7 +22,8 @@ Options<2> rubber() {
     return options;
 }
 
-// Bends far (a fifth of its length) under a load that comes and goes smoothly; positions at time 0.2 s.
+// Bends far (a fifth of its length) under a load that comes and goes smoothly, or is there at once and goes; positions
+// at time 0.2 s.
 std::vector<double> large_swing(Options<2> options, int steps) {
     constexpr double end = 0.2;
     options.residual_tolerance = 1e-11;
@@ -47,6 +48,34 @@ double observed_order(const Options<2>& options) {
     exact.alpha = 0;
     const std::vector<double> reference = large_swing(exact, 6400);
     return std::log2(distance(large_swing(options, 400), reference) / distance(large_swing(options, 800), reference));
+}
+
+// The first acceleration of the lowest mode of a body that is let go, over that of its mass alone, -ω² u: the first
+// step's Newmark formulas tell it from what the step has made.
+double first_acceleration(const Options<2>& options, double omega_dt) {
+    const Mode mode = lowest_mode(slender_beam(), options);
+    std::vector<double> u = mode.shape;
+    for (double& x : u) x *= 1e-9;
+    Solver<2> solver(slender_beam(), options);
+    start_with(solver, u, no_load(slender_beam()));
+    const double omega = 2 * M_PI * mode.frequency, dt = omega_dt / omega;
+    solver.advance(dt, no_load(slender_beam()), serial_loop);
+    const std::size_t tip = 2 * nearest_node(slender_beam(), 0.1, 0) + 1;
+    const double gamma = newmark_coefficients(options.scheme, options.alpha).gamma;
+    const double a = (solver.velocities()[tip] / dt - gamma * solver.accelerations()[tip]) / (1 - gamma);
+    return a / (-omega * omega * u[tip]);
+}
+
+// Of that mode, two periods after it was let go, against the cosine.
+double error_of_swing(const Options<2>& options, int steps) {
+    const Mode mode = lowest_mode(slender_beam(), options);
+    std::vector<double> u = mode.shape;
+    for (double& x : u) x *= 1e-9;
+    Solver<2> solver(slender_beam(), options);
+    start_with(solver, u, no_load(slender_beam()));
+    for (int k = 0; k < steps; ++k) solver.advance(2.1 / mode.frequency / steps, no_load(slender_beam()), serial_loop);
+    const std::size_t tip = 2 * nearest_node(slender_beam(), 0.1, 0) + 1;
+    return std::fabs(solver.displacements()[tip] / u[tip] - std::cos(2 * M_PI * 2.1));
 }
 
 // |λ| of one step on the lowest mode, measured: once the third, spurious root has died out the amplitude q obeys
@@ -100,6 +129,27 @@ TEST_CASE("HHT is second order and so is Newmark without damping; Newmark with �
     CHECK(observed_order(options) == doctest::Approx(2).epsilon(0.05));
     options.scheme = Scheme::newmark;
     CHECK(observed_order(options) == doctest::Approx(1).epsilon(0.1));
+}
+
+TEST_CASE("first accelerations that the step resolves: closed form of a mode, and the order stays") {
+    Options<2> options = rubber();
+    for (const Scheme scheme : {Scheme::hht, Scheme::newmark})
+        for (const double omega_dt : {0.1, 1.0, 10.0}) {
+            CAPTURE(omega_dt);
+            options.scheme = scheme;
+            options.first_accelerations = FirstAccelerations::of_mass;
+            CHECK(first_acceleration(options, omega_dt) == doctest::Approx(1).epsilon(1e-4));
+            options.first_accelerations = FirstAccelerations::resolved;
+            const NewmarkCoefficients c = newmark_coefficients(scheme, options.alpha);
+            CHECK(first_acceleration(options, omega_dt) ==
+                  doctest::Approx(1 / (1 + c.weight_new * c.beta * omega_dt * omega_dt)).epsilon(1e-4));
+        }
+    options.scheme = Scheme::hht;
+    for (const FirstAccelerations first : {FirstAccelerations::of_mass, FirstAccelerations::resolved}) {
+        options.first_accelerations = first;
+        CHECK(std::log2(error_of_swing(options, 200) / error_of_swing(options, 400)) ==
+              doctest::Approx(2).epsilon(0.05));
+    }
 }
 
 TEST_CASE("the damping of the schemes is that of their spectral radius") {
