@@ -191,7 +191,7 @@ TEST_CASE("the predicted step loses less than a tenth of what is allowed, the fi
 
 namespace {
 // Lighter than the water that it moves, and hit by it.
-const std::string light_gate = with(with(gate, "density = 8000.0", "density = 400.0"), "end = 0.02", "end = 0.01");
+const std::string light_gate = with(with(gate, "density = 8000.0", "density = 200.0"), "end = 0.02", "end = 0.01");
 
 std::string between_flux_walls(const std::string& text) {
     return with(text, "sound_speed = 30.0", "sound_speed = 30.0\nwalls = \"normal_flux\"");
