@@ -206,7 +206,8 @@ std::string solid_tables(int threads) {
     text += element_row("Q8", plane, 4, executor);
     text += element_row("H8, enhanced", solid::without_mid_side_nodes(body), 8, executor);
     text += element_row("H20", coarse, 8, executor);
-    text += "\n" + solver_heading(threads);
+    text += '\n';
+    text += solver_heading(threads);
     text += solver_rows(solid::box_mesh({0, 0}, {0.1, 0.02}, 80, 20), executor);
     text += solver_rows(solid::box_mesh({0, 0}, {0.2, 0.05}, 260, 64), executor);
     text += solver_rows(solid::box_mesh({0, 0, 0}, {0.1, 0.02, 0.02}, {40, 4, 4}), executor);
