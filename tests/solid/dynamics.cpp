@@ -50,47 +50,49 @@ double observed_order(const Options<2>& options) {
     return std::log2(distance(large_swing(options, 400), reference) / distance(large_swing(options, 800), reference));
 }
 
+// A beam let go in the shape of its lowest mode, so small that it is linear.
+struct LowestMode {
+    Mode mode;
+    std::vector<double> u;  // at first
+    Solver<2> solver;
+    std::size_t tip = 2 * nearest_node(slender_beam(), 0.1, 0) + 1;
+
+    explicit LowestMode(const Options<2>& options)
+        : mode(lowest_mode(slender_beam(), options)), u(mode.shape), solver(slender_beam(), options) {
+        for (double& x : u) x *= 1e-9;
+        start_with(solver, u, no_load(slender_beam()));
+    }
+    double omega() const { return 2 * M_PI * mode.frequency; }
+    void advance(double dt) { solver.advance(dt, no_load(slender_beam()), serial_loop); }
+};
+
 // The first acceleration of the lowest mode of a body that is let go, over that of its mass alone, -ω² u: the first
 // step's Newmark formulas tell it from what the step has made.
 double first_acceleration(const Options<2>& options, double omega_dt) {
-    const Mode mode = lowest_mode(slender_beam(), options);
-    std::vector<double> u = mode.shape;
-    for (double& x : u) x *= 1e-9;
-    Solver<2> solver(slender_beam(), options);
-    start_with(solver, u, no_load(slender_beam()));
-    const double omega = 2 * M_PI * mode.frequency, dt = omega_dt / omega;
-    solver.advance(dt, no_load(slender_beam()), serial_loop);
-    const std::size_t tip = 2 * nearest_node(slender_beam(), 0.1, 0) + 1;
+    LowestMode swing(options);
+    const double dt = omega_dt / swing.omega();
+    swing.advance(dt);
     const double gamma = newmark_coefficients(options.scheme, options.alpha).gamma;
+    const auto& [mode, u, solver, tip] = swing;
     const double a = (solver.velocities()[tip] / dt - gamma * solver.accelerations()[tip]) / (1 - gamma);
-    return a / (-omega * omega * u[tip]);
+    return a / (-swing.omega() * swing.omega() * u[tip]);
 }
 
 // Of that mode, two periods after it was let go, against the cosine.
 double error_of_swing(const Options<2>& options, int steps) {
-    const Mode mode = lowest_mode(slender_beam(), options);
-    std::vector<double> u = mode.shape;
-    for (double& x : u) x *= 1e-9;
-    Solver<2> solver(slender_beam(), options);
-    start_with(solver, u, no_load(slender_beam()));
-    for (int k = 0; k < steps; ++k) solver.advance(2.1 / mode.frequency / steps, no_load(slender_beam()), serial_loop);
-    const std::size_t tip = 2 * nearest_node(slender_beam(), 0.1, 0) + 1;
-    return std::fabs(solver.displacements()[tip] / u[tip] - std::cos(2 * M_PI * 2.1));
+    LowestMode swing(options);
+    for (int k = 0; k < steps; ++k) swing.advance(2.1 / swing.mode.frequency / steps);
+    return std::fabs(swing.solver.displacements()[swing.tip] / swing.u[swing.tip] - std::cos(2 * M_PI * 2.1));
 }
 
 // |λ| of one step on the lowest mode, measured: once the third, spurious root has died out the amplitude q obeys
 // q_n+1 = 2 Re λ q_n - |λ|² q_n-1.
 double measured_radius(const Options<2>& options, double omega_dt) {
-    const Mode mode = lowest_mode(slender_beam(), options);
-    std::vector<double> u = mode.shape;
-    for (double& x : u) x *= 1e-9;
-    Solver<2> solver(slender_beam(), options);
-    start_with(solver, u, no_load(slender_beam()));
-    const std::size_t tip = 2 * nearest_node(slender_beam(), 0.1, 0) + 1;
+    LowestMode swing(options);
     std::vector<double> q;
     for (int k = 0; k < 60; ++k) {
-        solver.advance(omega_dt / (2 * M_PI * mode.frequency), no_load(slender_beam()), serial_loop);
-        q.push_back(solver.displacements()[tip]);
+        swing.advance(omega_dt / swing.omega());
+        q.push_back(swing.solver.displacements()[swing.tip]);
     }
     const std::size_t n = q.size() - 3;  // two equations for 2 Re λ and |λ|²
     const double determinant = -q[n] * q[n] + q[n + 1] * q[n - 1];
