@@ -112,12 +112,12 @@ std::optional<std::size_t> History::find(std::string_view name) const {
     return std::nullopt;
 }
 
-std::span<const double> History::time() const {
+std::span<const double> History::time() const& {
     if (values.empty()) return {};
     return values.front();
 }
 
-std::span<const double> History::column(std::string_view name) const {
+std::span<const double> History::column(std::string_view name) const& {
     if (const auto index = find(name)) return values[*index];
     std::vector<std::string_view> names;
     for (const HistoryColumn& column : columns) names.push_back(column.name);

@@ -55,9 +55,12 @@ struct History {
 
     std::size_t rows() const { return values.empty() ? 0 : values.front().size(); }
     std::optional<std::size_t> find(std::string_view name) const;  // by name without unit
-    std::span<const double> time() const;                          // the first column [s]
-    std::span<const double> column(
-        std::string_view name) const;  // throws std::out_of_range, naming the columns there are
+    // The first column [s], and the one of this name: views of this history, hence not of one that is about to go.
+    // Throws std::out_of_range, naming the columns there are.
+    std::span<const double> time() const&;
+    std::span<const double> column(std::string_view name) const&;
+    std::span<const double> time() const&& = delete;
+    std::span<const double> column(std::string_view name) const&& = delete;
 };
 
 // A last row without its line end is left out. Throws std::system_error or std::runtime_error with file and line.

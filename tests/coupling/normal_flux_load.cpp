@@ -93,7 +93,7 @@ TEST_CASE("a gate with normal fluxes opens like one with ghosts") {
         const Finished run(text);
         INFO(run.err.str());
         REQUIRE(run.code == engine::success);
-        return run.results.history().column("tip_x").back();
+        return run.results.column("tip_x").back();
     };
     const double ghosts = tip(gate);
     CHECK(tip(normal_flux(gate)) == doctest::Approx(ghosts).epsilon(0.1));

@@ -211,7 +211,7 @@ TEST_CASE("short steps and elements finer than particles do not break the gate")
             REQUIRE(engine::run(scene, {.folder = results.path, .trace = {}, .threads = 1, .quiet = true}, out, err) ==
                     engine::success);
             double sum = 0;
-            const auto force = results.history().column("gate_force_x");
+            const auto force = results.column("gate_force_x");
             for (std::size_t k = 1; k < force.size(); ++k) sum += std::fabs(force[k] - force[k - 1]);
             return sum;
         };

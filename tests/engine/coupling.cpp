@@ -143,7 +143,7 @@ TEST_CASE("what the solid's ledger calls dissipated is the damping of the time i
         const Finished run(with(with_keys("", "energy_ledger = true\n"), "sound_speed = 30.0",
                                 std::string("sound_speed = 30.0\ncfl = ") + cfl));
         REQUIRE(run.code == engine::success);
-        return run.results.history().column("solid_dissipated_energy").back();
+        return run.results.column("solid_dissipated_energy").back();
     };
     const double coarse = lost("0.3"), fine = lost("0.15");
     INFO("lost ", coarse, " and ", fine, " J/m");
@@ -168,7 +168,7 @@ TEST_CASE("p is regulated between 1 and its bound, and says so") {
     CHECK(summary.at("coupling_cycles").get<double>() < steps);
     CHECK(summary.at("tasks").at("FE Newton solve").at("calls") == summary.at("coupling_cycles"));
     const Finished every(gate);
-    CHECK(history.column("tip_x").back() == Approx(every.results.history().column("tip_x").back()).epsilon(0.05));
+    CHECK(history.column("tip_x").back() == Approx(every.results.column("tip_x").back()).epsilon(0.05));
 }
 
 TEST_CASE("the predicted step loses less than a tenth of what is allowed, the fixed one a fifth") {
@@ -184,8 +184,7 @@ TEST_CASE("the predicted step loses less than a tenth of what is allowed, the fi
         CHECK(of_fixed == Approx(0.8).epsilon(0.01));
         CHECK(of_predicted > 0.9);
         CHECK(of_predicted <= 1);
-        CHECK(predicted.results.history().column("tip_x").back() ==
-              Approx(fixed.results.history().column("tip_x").back()).epsilon(0.05));
+        CHECK(predicted.results.column("tip_x").back() == Approx(fixed.results.column("tip_x").back()).epsilon(0.05));
     }
 }
 
@@ -223,8 +222,8 @@ TEST_CASE("iterations hold a light gate that staggered schemes lose") {
     for (const char* algorithm : {"cps", "css"}) {
         CAPTURE(algorithm);
         const Finished run(with_coupling(light_gate, algorithm, 1));
-        const bool lost = run.code != engine::success ||
-                          peak(run.results.history().column("gate_force_x")) > 1000;  // ρ g H²/2 is 96 N/m
+        const bool lost =
+            run.code != engine::success || peak(run.results.column("gate_force_x")) > 1000;  // ρ g H²/2 is 96 N/m
         CHECK(lost);
     }
 }
@@ -235,8 +234,8 @@ TEST_CASE("where staggering works, iterating gives the same") {
         INFO(agreed.err.str());
         REQUIRE(agreed.code == engine::success);
         CHECK(agreed.results.summary().at("iterations").at("unconverged_cycles") == 0);
-        const double x = agreed.results.history().column("tip_x").back();
-        CHECK(x == Approx(cps.results.history().column("tip_x").back()).epsilon(0.03));
+        const double x = agreed.results.column("tip_x").back();
+        CHECK(x == Approx(cps.results.column("tip_x").back()).epsilon(0.03));
     }
 }
 
@@ -244,8 +243,8 @@ TEST_CASE("a gate lighter than the water between walls of normal fluxes is held 
     const Finished run(between_flux_walls(with(light_gate, "algorithm = \"cps\"\n", "algorithm = \"iterated\"\n")));
     INFO(run.err.str());
     REQUIRE(run.code == engine::success);
-    CHECK(peak(run.results.history().column("tip_x")) < 0.02);
-    CHECK(peak(run.results.history().column("gate_force_x")) < 1000);
+    CHECK(peak(run.results.column("tip_x")) < 0.02);
+    CHECK(peak(run.results.column("gate_force_x")) < 1000);
 }
 
 TEST_CASE("a cycle that is begun again ends in the same bits") {

@@ -114,7 +114,7 @@ TEST_CASE("the lag of CPS is its cycle, however many fluid steps that has") {
     // The solid moves under the load of the cycle's start, so what an error there is belongs to the cycle's length:
     // three fluid steps of a third of the size give the same cycle and nearly the same gate, three of the full size do
     // not.
-    const auto tip = [](const std::string& text) { return Finished(text).results.history().column("tip_x").back(); };
+    const auto tip = [](const std::string& text) { return Finished(text).results.column("tip_x").back(); };
     const double one = tip(with_coupling(gate, "cps", 1)), three_long = tip(with_coupling(gate, "cps", 3)),
                  three_short =
                      tip(with(with_coupling(gate, "cps", 3), "ratio = 3", "ratio = 3\nstep_fraction = 0.2667"));

@@ -172,7 +172,7 @@ TEST_CASE("comparisons with references reach the summary") {
     CHECK(c.at("label") == "nothing");
     CHECK(c.at("points") == 3);
     CHECK(c.at("rms").get<double>() > 0);
-    const auto tip = run.results.history().column("tip_x");
+    const auto tip = run.results.column("tip_x");
     CHECK(c.at("largest_error").get<double>() <= *std::max_element(tip.begin(), tip.end()));
     CHECK(run.results.report().find("nothing") != std::string::npos);
 }

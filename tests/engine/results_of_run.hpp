@@ -2,8 +2,10 @@
 #pragma once
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "engine/run.hpp"
 #include "io/hdf5_file.hpp"
@@ -22,6 +24,11 @@ struct ResultsFolder {
     std::filesystem::path path;
 
     io::History history() const { return io::read_history(path / "history.csv"); }
+    std::vector<double> column(const std::string& name) const {
+        const io::History all = history();
+        const std::span<const double> values = all.column(name);
+        return {values.begin(), values.end()};
+    }
     nlohmann::json summary() const { return nlohmann::json::parse(contents(path / "summary.json")); }
     std::string report() const { return contents(path / "report.html"); }
     std::vector<FrameOnDisk> frames(const std::string& stem) const {

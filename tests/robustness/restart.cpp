@@ -205,7 +205,7 @@ TEST_CASE("a checkpoint of another scene or version is refused with what differs
     made.again({"--restart", "auto", "--set", "time.end=0.03", "--set", "output.frame_interval=0.001", "--set",
                 "output.checkpoint_interval=0", "--set", "title=Longer"},
                0);
-    CHECK(made.results.history().time().back() == 0.03);
+    CHECK(made.results.column("time").back() == 0.03);
 }
 
 TEST_CASE("a mesh that has changed under its name is seen") {
@@ -241,9 +241,9 @@ TEST_CASE("a disk that fills up ends the run and leaves the last good checkpoint
     CHECK(says(full, "is untouched"));
     CHECK(contents(made.newer) == good);
     CHECK(made.results.summary().at("outcome") == "failed");
-    CHECK(made.results.history().time().back() < 0.03);
+    CHECK(made.results.column("time").back() < 0.03);
     made.again(with_more({"--restart", "auto"}), 0);  // with room again
-    CHECK(made.results.history().time().back() == 0.03);
+    CHECK(made.results.column("time").back() == 0.03);
 
     // A folder in which nothing can be made: a folder stands where the file is to be.
     WithCheckpoints other(column);
