@@ -52,10 +52,10 @@ Task back_to_start(const IteratedParts& parts, CycleStart& start) {
                 if (!renewed) return;
                 if (parts.flux_walls) {
                     rebuild_lists(parts.fluid, *parts.flux_walls, parallel_loop);
-                    parts.interface.rebuild(parts.fluid, *parts.flux_walls);
+                    parts.interface.rebuild(parts.fluid, *parts.flux_walls, parallel_loop);
                 } else {
                     rebuild_lists(parts.fluid, parts.walls, parallel_loop);
-                    parts.interface.rebuild(parts.fluid, *parts.walls);
+                    parts.interface.rebuild(parts.fluid, *parts.walls, parallel_loop);
                 }
                 parts.fluid.record.walls = panels.position;
                 start.fluid.take(parts.fluid, parts.clock);  // in the new order

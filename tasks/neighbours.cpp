@@ -87,7 +87,7 @@ class NeighbourSearchTask {
         fluid_.record.made = true;
         if (walls_) fluid_.record.walls = walls_->panels.position;
         if constexpr (D == 2)
-            if (interface_) interface_->rebuild(fluid_, *walls_);
+            if (interface_) interface_->rebuild(fluid_, *walls_, parallel_loop);
     }
 
     // A particle deeper behind a wall than half a spacing would no longer be mirrored: it has passed through.

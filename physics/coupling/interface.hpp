@@ -41,14 +41,14 @@ struct Interface {
     }
 
     // After the neighbour lists have been built.
-    void rebuild(const fluid::Fluid<2>& fluid, const fluid::GhostWalls<2>& walls) {
+    void rebuild(const fluid::Fluid<2>& fluid, const fluid::GhostWalls<2>& walls, BlockLoop loop = serial_loop) {
         if (method == LoadMethod::averaged_pressure)
             average.rebuild(fluid.particles, walls.panels, fluid.lists.reach());
         else
-            load.rebuild(fluid.particles, fluid.lists, walls);
+            load.rebuild(fluid.particles, fluid.lists, walls, loop);
     }
     // Walls of normal fluxes know themselves what particles exert on them.
-    void rebuild(const fluid::Fluid<2>& fluid, const fluid::NormalFluxWalls<2>& walls) {
+    void rebuild(const fluid::Fluid<2>& fluid, const fluid::NormalFluxWalls<2>& walls, BlockLoop = serial_loop) {
         if (method == LoadMethod::averaged_pressure)
             average.rebuild(fluid.particles, walls.panels, fluid.lists.reach());
     }

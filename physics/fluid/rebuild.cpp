@@ -25,7 +25,7 @@ void sort(Fluid<D>& fluid, BlockLoop loop) {
 template <int D>
 void make_lists(Fluid<D>& fluid, GhostWalls<D>* walls, BlockLoop loop) {
     Particles<D>& particles = fluid.particles;
-    if (walls) walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), Vec<D>(fluid.flux.gravity));
+    if (walls) walls->rebuild(particles, fluid.spacing, fluid.lists.reach(), Vec<D>(fluid.flux.gravity), loop);
     fluid.search.build(particles, fluid.lists, walls ? &walls->visibility : nullptr, loop);
     if (fluid.transport == Transport::shifting) fluid.surface.resize(particles);
     fluid.relative_travel.lists_are_new();
@@ -96,9 +96,9 @@ bool lists_hold(Fluid<D>& fluid, const GhostWalls<D>* walls, const Travel& trave
     if (hold_by_largest(fluid, travel, coming)) return true;
     if (travel.acceleration2 == 0) return false;  // before the first step it is not known
     const double reach = fluid.lists.reach();
-    const auto mark = [&](std::vector<std::uint8_t>& near) { walls->mark_near(fluid.particles, reach, near); };
+    const auto was_near = [&](std::size_t i) { return walls->was_near(fluid.particles, i, reach); };
     const auto may_be_near = [&](std::size_t i) { return walls->is_near(fluid.particles, i, reach); };
-    const NearWalls near{mark, may_be_near};
+    const NearWalls near{was_near, may_be_near};
     return fluid.relative_travel.holds(fluid.particles, fluid.search.grid(), fluid.lists, travel, coming,
                                        walls ? &near : nullptr, loop);
 }

@@ -31,7 +31,7 @@ bool RelativeTravel<D>::holds(const Particles<D>& particles, const ClusterGrid<D
     const double margin = margin_ratio * lists.radius;
     if (2 * (travel.so_far() + travel.of_step(coming.dt)) >= lists.skin + margin) return false;
     if (walls) {
-        if (!near_known_) find_near(particles, lists, *walls);
+        if (!near_known_) find_near(particles, lists, *walls, loop);
         if (!walls_hold(particles, lists.skin, coming, *walls, loop)) return false;
     }
     if (!groups_known_) find_groups(grid, lists.reach() + margin, loop);
@@ -41,21 +41,20 @@ bool RelativeTravel<D>::holds(const Particles<D>& particles, const ClusterGrid<D
 // Near walls are also those that see images, or from whom a wall hides something: round the edge of a step both may be
 // further from the wall than they reach.
 template <int D>
-void RelativeTravel<D>::find_near(const Particles<D>& particles, const NeighbourLists<D>& lists,
-                                  const NearWalls& walls) {
-    near_.assign(particles.count, 0);
-    walls.mark(near_);
+void RelativeTravel<D>::find_near(const Particles<D>& particles, const NeighbourLists<D>& lists, const NearWalls& walls,
+                                  BlockLoop loop) {
+    near_.resize(particles.count);
     const std::size_t images = particles.clusters();
-    for (std::size_t block = 0; block < lists.blocks.size(); ++block) {
+    loop(lists.blocks.size(), [&](std::size_t block) {
         const LaneRange lanes = lanes_of_block(particles, block);
         const NeighbourBlock& list = lists.blocks[block];
         for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
             const auto from = list.particle[i - lanes.begin], to = list.particle[i - lanes.begin + 1];
             bool near = from.masked_end < to.masked_end;
             for (std::uint32_t k = from.open_end; k < to.open_end; ++k) near |= list.open[k] >= images;
-            near_[i] = near_[i] || near;
+            near_[i] = near || walls.was_near(i);
         }
-    }
+    });
     near_known_ = true;
 }
 

@@ -18,8 +18,8 @@ namespace aquagraph::fluid {
 
 // What walls, or the seams of a periodic domain, say about particles near them.
 struct NearWalls {
-    // Sets near[i] for every particle that was within R + skin of one when the lists were made.
-    FunctionRef<void(std::vector<std::uint8_t>& near)> mark;
+    // True if particle i was within R + skin of one when the lists were made.
+    FunctionRef<bool(std::size_t i)> was_near;
     // False if particle i, as it stands now, is further than R + skin from where they were then.
     FunctionRef<bool(std::size_t i)> may_be_near;
 };
@@ -57,7 +57,8 @@ class RelativeTravel {
     };
     static constexpr std::size_t groups_per_part = 256;
 
-    void find_near(const Particles<D>& particles, const NeighbourLists<D>& lists, const NearWalls& walls);
+    void find_near(const Particles<D>& particles, const NeighbourLists<D>& lists, const NearWalls& walls,
+                   BlockLoop loop);
     bool walls_hold(const Particles<D>& particles, double skin, const ComingStep& coming, const NearWalls& walls,
                     BlockLoop loop);
     bool groups_hold(const Particles<D>& particles, const ClusterGrid<D>& grid, double skin, double dt, BlockLoop loop);

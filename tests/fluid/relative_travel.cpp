@@ -216,11 +216,9 @@ TEST_CASE("a wall nearby ends what lists of a stream allow") {
     const auto holds = [&](double moved, double walls_moved, std::size_t near, std::size_t arriving) {
         for (std::size_t i = 0; i < s.count; ++i) s.x[0][i] = s.x_built[0][i] + moved;
         fluid.relative_travel.lists_are_new();
-        const auto mark = [&](std::vector<std::uint8_t>& flags) {
-            if (near < s.count) flags[near] = 1;
-        };
+        const auto was_near = [&](std::size_t i) { return i == near; };
         const auto may_be_near = [&](std::size_t i) { return i == arriving; };
-        const NearWalls walls{mark, may_be_near};
+        const NearWalls walls{was_near, may_be_near};
         return fluid.relative_travel.holds(s, fluid.search.grid(), fluid.lists, most_travelled(fluid),
                                            {1e-3, walls_moved}, &walls, serial_loop);
     };

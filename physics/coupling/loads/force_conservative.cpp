@@ -11,13 +11,33 @@ namespace aquagraph::coupling {
 
 using fluid::W;
 
-void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const fluid::NeighbourLists<2>& lists,
-                                    const fluid::GhostWalls<2>& walls) {
+namespace {
+bool is_wet(const fluid::GhostWalls<2>& walls, int panel) {
+    return panel >= 0 && walls.panels.panels[std::size_t(panel)].wet;
+}
+}  // namespace
+
+void ForceConservativeLoad::mark_wet_clusters(const fluid::GhostWalls<2>& walls) {
+    is_wet_cluster_.assign((walls.ghosts.size() + W - 1) / W, 0);
+    for (std::size_t g = 0; g < walls.ghosts.size(); ++g) {
+        const fluid::Ghost& ghost = walls.ghosts[g];
+        bool wet = is_wet(walls, ghost.panel);
+        if (ghost.corner >= 0)
+            for (const int panel : walls.corners[std::size_t(ghost.corner)].panel) wet |= is_wet(walls, panel);
+        if (wet) is_wet_cluster_[g / W] = 1;
+    }
+}
+
+void ForceConservativeLoad::collect(const fluid::Particles<2>& particles, const fluid::NeighbourLists<2>& lists,
+                                    const fluid::GhostWalls<2>& walls, std::size_t block,
+                                    std::vector<Pair>& pairs) const {
     const std::size_t first_ghost_cluster = particles.clusters();
     const double reach2 = lists.reach() * lists.reach();
-    const auto is_wet = [&](int panel) { return panel >= 0 && walls.panels.panels[std::size_t(panel)].wet; };
+    const auto counts = [&](std::uint32_t cluster) {
+        return cluster >= first_ghost_cluster && is_wet_cluster_[cluster - first_ghost_cluster];
+    };
 
-    pairs_.clear();
+    pairs.clear();
     const auto visit = [&](std::size_t i, std::uint32_t cluster, unsigned mask) {
         for (std::size_t l = 0; l < W; ++l) {
             const std::size_t lane = cluster * W + l, g = lane - particles.ghost_begin();
@@ -26,33 +46,42 @@ void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const 
             if (dx * dx + dy * dy >= reach2) continue;
             const fluid::Ghost& ghost = walls.ghosts[g];
             if (ghost.corner < 0) {
-                if (is_wet(ghost.panel)) pairs_.push_back({std::uint32_t(g), std::uint32_t(i), ghost.panel});
+                if (is_wet(walls, ghost.panel)) pairs.push_back({std::uint32_t(g), std::uint32_t(i), ghost.panel});
                 continue;
             }
             // A corner's ghost loads the panel through which it is seen: the corner's own one of that patch. Where
             // sight slips through the corner between the two, the wet one.
             const int entry = walls.visibility.entry_panel(i, g);
             for (const int panel : walls.corners[std::size_t(ghost.corner)].panel) {
-                if (is_wet(panel) &&
+                if (is_wet(walls, panel) &&
                     (entry < 0 || walls.patch[std::size_t(panel)] == walls.patch[std::size_t(entry)])) {
-                    pairs_.push_back({std::uint32_t(g), std::uint32_t(i), panel});
+                    pairs.push_back({std::uint32_t(g), std::uint32_t(i), panel});
                     break;
                 }
             }
         }
     };
-    for (std::size_t block = 0; block < lists.blocks.size(); ++block) {
-        const auto& list = lists.blocks[block];
-        const fluid::LaneRange lanes = lanes_of_block(particles, block);
-        for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
-            if (!walls.grid.at(Vec2(particles.x[0][i], particles.x[1][i]))) continue;  // no ghost in sight
-            const auto from = list.particle[i - lanes.begin], to = list.particle[i - lanes.begin + 1];
-            for (auto k = from.open_end; k < to.open_end; ++k)
-                if (list.open[k] >= first_ghost_cluster) visit(i, list.open[k], 0xff);
-            for (auto k = from.masked_end; k < to.masked_end; ++k)
-                if (list.masked[k] >= first_ghost_cluster) visit(i, list.masked[k], list.mask[k]);
-        }
+    const auto& list = lists.blocks[block];
+    const fluid::LaneRange lanes = lanes_of_block(particles, block);
+    for (std::size_t i = lanes.begin; i < lanes.end; ++i) {
+        if (!walls.grid.at(Vec2(particles.x[0][i], particles.x[1][i]))) continue;  // no ghost in sight
+        const auto from = list.particle[i - lanes.begin], to = list.particle[i - lanes.begin + 1];
+        for (auto k = from.open_end; k < to.open_end; ++k)
+            if (counts(list.open[k])) visit(i, list.open[k], 0xff);
+        for (auto k = from.masked_end; k < to.masked_end; ++k)
+            if (counts(list.masked[k])) visit(i, list.masked[k], list.mask[k]);
     }
+}
+
+void ForceConservativeLoad::rebuild(const fluid::Particles<2>& particles, const fluid::NeighbourLists<2>& lists,
+                                    const fluid::GhostWalls<2>& walls, BlockLoop loop) {
+    mark_wet_clusters(walls);
+    const std::size_t blocks = lists.blocks.size();
+    if (pairs_of_block_.size() < blocks) pairs_of_block_.resize(blocks);
+    loop(blocks, [&](std::size_t block) { collect(particles, lists, walls, block, pairs_of_block_[block]); });
+    pairs_.clear();
+    for (std::size_t block = 0; block < blocks; ++block)
+        pairs_.insert(pairs_.end(), pairs_of_block_[block].begin(), pairs_of_block_[block].end());
     std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
         return std::tie(a.ghost, a.panel, a.fluid) < std::tie(b.ghost, b.panel, b.fluid);
     });

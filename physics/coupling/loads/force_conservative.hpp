@@ -22,7 +22,7 @@ class ForceConservativeLoad {
   public:
     // Collects the pairs that cross wet panels, after the neighbour lists have been built.
     void rebuild(const fluid::Particles<2>& particles, const fluid::NeighbourLists<2>& lists,
-                 const fluid::GhostWalls<2>& walls);
+                 const fluid::GhostWalls<2>& walls, BlockLoop loop);
 
     // Clusters of fluid particles whose gradients the load reads, ascending.
     const std::vector<std::uint32_t>& clusters() const { return clusters_; }
@@ -46,11 +46,17 @@ class ForceConservativeLoad {
         std::uint32_t ghost, fluid;
         std::int32_t panel;
     };
+    void mark_wet_clusters(const fluid::GhostWalls<2>& walls);
+    void collect(const fluid::Particles<2>& particles, const fluid::NeighbourLists<2>& lists,
+                 const fluid::GhostWalls<2>& walls, std::size_t block, std::vector<Pair>& pairs) const;
+
     std::vector<Source> sources_;
     std::vector<Vec2> force_;  // of each source
     std::vector<std::uint32_t> fluid_, clusters_;
+    std::vector<std::vector<Pair>> pairs_of_block_;
     std::vector<Pair> pairs_;
     std::vector<std::uint8_t> needed_;
+    std::vector<std::uint8_t> is_wet_cluster_;  // of ghosts: one of them at least belongs to a wet panel
 };
 
 }  // namespace aquagraph::coupling

@@ -23,7 +23,8 @@ void GhostWalls<D>::update_geometry() {
 }
 
 template <int D>
-void GhostWalls<D>::rebuild(Particles<D>& particles, double spacing, double reach, const Vec<D>& gravity) {
+void GhostWalls<D>::rebuild(Particles<D>& particles, double spacing, double reach, const Vec<D>& gravity,
+                            BlockLoop loop) {
     periodic.check(reach);
     panels.update_geometry();
     least_depth_ = 0.05 * spacing;
@@ -39,21 +40,39 @@ void GhostWalls<D>::rebuild(Particles<D>& particles, double spacing, double reac
     } else {  // walls that have come back to where they were have taken their corners along in between
         for (Corner<D>& corner : corners) corner.update(panels);
     }
-    collect(particles, spacing, reach);
-
-    for (auto& along : image_) along.resize(unsorted_.size());
-    for (std::size_t g = 0; g < unsorted_.size(); ++g) {
-        const Vec<D> image = place(particles, unsorted_[g]);
-        for (int d = 0; d < D; ++d) image_[std::size_t(d)][g] = image[d];
-        if (sticks_out(particles, unsorted_[g], image)) grid.look_closely_around(image, panels);
-    }
-    const auto order = order_.sort(image_, unsorted_.size(), spacing);
+    collect(particles, spacing, reach, loop);
+    place_images(particles, loop);
+    const auto order = order_.sort(image_, unsorted_.size(), spacing, loop);
     ghosts.resize(unsorted_.size());
     for (std::size_t g = 0; g < ghosts.size(); ++g) ghosts[g] = unsorted_[order[g]];
 
     particles.resize(particles.count, ghosts.size());
-    for (std::size_t block = 0; block < blocks(); ++block) update_state(particles, gravity, block);
-    visibility.prepare(particles, panels, grid, periodic, ghosts, corners, patch, 0.5 * spacing);
+    loop(blocks(), [&](std::size_t block) { update_state(particles, gravity, block); });
+    visibility.prepare(particles, panels, grid, periodic, ghosts, corners, patch, 0.5 * spacing, loop);
+}
+
+// Images beyond another side of a body make the grid look closely around them, which may show that others stick out:
+// looked at side by side, and again in order where the grid knew of nothing before.
+template <int D>
+void GhostWalls<D>::place_images(const Particles<D>& particles, BlockLoop loop) {
+    const std::size_t n = unsorted_.size();
+    for (auto& along : image_) along.resize(n);
+    side_.resize(n);
+    loop((n + ghosts_per_block - 1) / ghosts_per_block, [&](std::size_t block) {
+        for (std::size_t g = block * ghosts_per_block; g < std::min(n, (block + 1) * ghosts_per_block); ++g) {
+            const Vec<D> image = place(particles, unsorted_[g]);
+            for (int d = 0; d < D; ++d) image_[std::size_t(d)][g] = image[d];
+            side_[g] = side_of(particles, unsorted_[g], image);
+        }
+    });
+    bool has_looked = false;
+    for (std::size_t g = 0; g < n; ++g) {
+        if (side_[g] == Side::behind || (side_[g] == Side::open_room && !has_looked)) continue;
+        const Vec<D> image = at<D>(image_, g);
+        if (side_[g] == Side::open_room && side_of(particles, unsorted_[g], image) != Side::beyond) continue;
+        grid.look_closely_around(image, panels);
+        has_looked = true;
+    }
 }
 
 template <int D>
@@ -70,21 +89,22 @@ bool GhostWalls<D>::is_near(const Particles<D>& particles, std::size_t i, double
 }
 
 template <int D>
-void GhostWalls<D>::mark_near(const Particles<D>& particles, double reach, std::vector<std::uint8_t>& near) const {
-    for (std::size_t i = 0; i < particles.count; ++i) near[i] |= is_near(at<D>(particles.x_built, i), reach);
+bool GhostWalls<D>::was_near(const Particles<D>& particles, std::size_t i, double reach) const {
+    return is_near(at<D>(particles.x_built, i), reach);
 }
 
-// True if the image lies beyond another side of the body behind the panel.
 template <int D>
-bool GhostWalls<D>::sticks_out(const Particles<D>& particles, const Ghost& ghost, const Vec<D>& image) const {
-    if (ghost.panel < 0) return false;
+typename GhostWalls<D>::Side GhostWalls<D>::side_of(const Particles<D>& particles, const Ghost& ghost,
+                                                    const Vec<D>& image) const {
+    if (ghost.panel < 0) return Side::behind;
     const Vec<D> copy = periodic.shift(ghost.copy);
     const Vec<D> x = before_wall(particles, ghost);
     const auto panel = std::size_t(ghost.panel);
     const Vec<D> foot = x - panels.height(panel, x) * panels.normal[panel] + periodic.shift(ghost.wall_copy);
     const auto* cell = grid.at(foot);
-    if (!cell || cell->convex_room) return false;
-    return PanelGrid<D>::first_crossing(*cell, foot, image - copy, patch[panel]).entry >= 0;
+    if (!cell || cell->convex_room) return Side::open_room;
+    return PanelGrid<D>::first_crossing(*cell, foot, image - copy, patch[panel]).entry >= 0 ? Side::beyond
+                                                                                            : Side::behind;
 }
 
 // Which part of its plane each triangle mirrors. Between triangles of one facet feet may lie on either, and the first
@@ -149,29 +169,40 @@ bool GhostWalls<D>::owns(std::size_t panel, const Vec<D>& x) const {
 }
 
 template <int D>
-void GhostWalls<D>::collect(const Particles<D>& particles, double spacing, double reach) {
-    unsorted_.clear();
-    for (std::size_t j = 0; j < particles.count; ++j) {
-        const Vec<D> x = at<D>(particles.x, j);
-        const std::size_t first = unsorted_.size();
-        if (const auto* cell = grid.at(x)) {
-            collect_panels(j, x, *cell, spacing, reach);
-            collect_corners(j, x, *cell, spacing, reach);
+void GhostWalls<D>::collect(const Particles<D>& particles, double spacing, double reach, BlockLoop loop) {
+    const std::size_t parts = (particles.count + particles_per_part - 1) / particles_per_part;
+    if (parts_.size() < parts) parts_.resize(parts);
+    loop(parts, [&](std::size_t p) {
+        Part& part = parts_[p];
+        std::vector<Ghost>& found = part.ghosts;
+        found.clear();
+        const std::size_t end = std::min(particles.count, (p + 1) * particles_per_part);
+        for (std::size_t j = p * particles_per_part; j < end; ++j) {
+            const Vec<D> x = at<D>(particles.x, j);
+            const std::size_t first = found.size();
+            if (const auto* cell = grid.at(x)) {
+                collect_panels(j, x, *cell, spacing, reach, part);
+                collect_corners(j, x, *cell, spacing, reach, found);
+            }
+            if (!periodic.any()) continue;
+            const std::size_t last = found.size();
+            collect_images(particles, {std::uint32_t(j), -1}, reach, found);
+            for (std::size_t g = first; g < last; ++g) collect_images(particles, Ghost(found[g]), reach, found);
         }
-        if (!periodic.any()) continue;
-        const std::size_t last = unsorted_.size();
-        collect_images(particles, {std::uint32_t(j), -1}, reach);
-        for (std::size_t g = first; g < last; ++g) collect_images(particles, Ghost(unsorted_[g]), reach);
-    }
+    });
+    unsorted_.clear();
+    for (std::size_t p = 0; p < parts; ++p)
+        unsorted_.insert(unsorted_.end(), parts_[p].ghosts.begin(), parts_[p].ghosts.end());
 }
 
 template <int D>
 void GhostWalls<D>::collect_panels(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell,
-                                   double spacing, double reach) {
+                                   double spacing, double reach, Part& part) const {
     const double tolerance = 0.5 * spacing;
     constexpr auto none = std::numeric_limits<std::size_t>::max();
-    const std::size_t first = unsorted_.size();
-    mirrored_by_.clear();
+    auto& [found, mirrored_by] = part;
+    const std::size_t first = found.size();
+    mirrored_by.clear();
     for (std::size_t entry = 0; entry < cell.panel.size(); ++entry) {
         const auto panel = std::size_t(cell.panel[entry]);
         const int copy = cell.copy[entry];
@@ -181,17 +212,17 @@ void GhostWalls<D>::collect_panels(std::size_t j, const Vec<D>& x, const typenam
         if constexpr (D == 3) {  // one ghost per facet: of the triangle that the foot lies on, or nearly
             const auto shape = panels.shape_functions(panel, there);
             const double inside = std::min({shape[0], shape[1], shape[2]});
-            const auto same = std::find_if(mirrored_by_.begin(), mirrored_by_.end(), [&](const ByFacet& other) {
+            const auto same = std::find_if(mirrored_by.begin(), mirrored_by.end(), [&](const ByFacet& other) {
                 return other.facet == facet_[panel] && other.copy == copy;
             });
-            if (same != mirrored_by_.end()) {
+            if (same != mirrored_by.end()) {
                 if (inside > same->inside && same->inside < 0) {
                     same->inside = inside;
-                    if (same->ghost != none) unsorted_[same->ghost].panel = int(panel);
+                    if (same->ghost != none) found[same->ghost].panel = int(panel);
                 }
                 continue;
             }
-            mirrored_by_.push_back({facet_[panel], copy, inside, none});
+            mirrored_by.push_back({facet_[panel], copy, inside, none});
         }
         if (!cell.convex_room && d > 0) {
             // Something between the particle and the foot of its perpendicular hides the panel from it.
@@ -199,30 +230,30 @@ void GhostWalls<D>::collect_panels(std::size_t j, const Vec<D>& x, const typenam
             if (PanelGrid<D>::first_crossing(cell, x, foot).entry >= 0) continue;
         }
         const Ghost ghost{std::uint32_t(j), int(panel), -1, std::uint8_t(copy), 0};
-        if (periodic.any() && mirrors_already(first, x, ghost, spacing)) continue;
-        if (D == 3) mirrored_by_.back().ghost = unsorted_.size();
-        unsorted_.push_back(ghost);
+        if (periodic.any() && mirrors_already(std::span(found).subspan(first), x, ghost, spacing)) continue;
+        if (D == 3) mirrored_by.back().ghost = found.size();
+        found.push_back(ghost);
     }
 }
 
 // A wall that is longer than the period lies beside its own copy: what one of the two mirrors, the other would mirror
 // to the same place.
 template <int D>
-bool GhostWalls<D>::mirrors_already(std::size_t first, const Vec<D>& x, const Ghost& ghost, double spacing) const {
+bool GhostWalls<D>::mirrors_already(std::span<const Ghost> of_particle, const Vec<D>& x, const Ghost& ghost,
+                                    double spacing) const {
     const auto image = [&](const Ghost& of) {
         const Vec<D> shift = periodic.shift(of.wall_copy);
         return Vec<D>(mirror(x - shift, of).image + shift);
     };
-    for (std::size_t g = first; g < unsorted_.size(); ++g)
-        if (unsorted_[g].wall_copy != ghost.wall_copy &&
-            (image(unsorted_[g]) - image(ghost)).squaredNorm() < 1e-12 * spacing * spacing)
-            return true;
-    return false;
+    return std::any_of(of_particle.begin(), of_particle.end(), [&](const Ghost& other) {
+        return other.wall_copy != ghost.wall_copy &&
+               (image(other) - image(ghost)).squaredNorm() < 1e-12 * spacing * spacing;
+    });
 }
 
 template <int D>
 void GhostWalls<D>::collect_corners(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell,
-                                    double spacing, double reach) {
+                                    double spacing, double reach, std::vector<Ghost>& found) const {
     const double tolerance = 0.5 * spacing;
     for (std::size_t entry = 0; entry < cell.corner.size(); ++entry) {
         const Corner<D>& corner = corners[std::size_t(cell.corner[entry])];
@@ -241,17 +272,18 @@ void GhostWalls<D>::collect_corners(std::size_t j, const Vec<D>& x, const typena
         for (std::size_t k = 0; k < corner.aways && mirrors; ++k) mirrors = from.dot(corner.away[k]) >= 0;
         for (std::size_t k = 0; k < corner.panels && mirrors; ++k)
             mirrors = from.dot(panels.normal[std::size_t(corner.panel[k])]) > -tolerance;
-        if (mirrors) unsorted_.push_back({std::uint32_t(j), -1, cell.corner[entry], std::uint8_t(copy), 0});
+        if (mirrors) found.push_back({std::uint32_t(j), -1, cell.corner[entry], std::uint8_t(copy), 0});
     }
 }
 
 template <int D>
-void GhostWalls<D>::collect_images(const Particles<D>& particles, const Ghost& ghost, double reach) {
+void GhostWalls<D>::collect_images(const Particles<D>& particles, const Ghost& ghost, double reach,
+                                   std::vector<Ghost>& found) const {
     for (int copy = 1; copy < Periodic<D>::copies; ++copy) {
         if (!periodic.exists(copy)) continue;
         Ghost image = ghost;
         image.copy = std::uint8_t(copy);
-        if (periodic.is_near(place(particles, image), copy, reach)) unsorted_.push_back(image);
+        if (periodic.is_near(place(particles, image), copy, reach)) found.push_back(image);
     }
 }
 

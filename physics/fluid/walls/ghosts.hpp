@@ -14,7 +14,9 @@
 // Where two walls of such a domain meet across its edge at an angle, no corner is made: let flat walls end there.
 #pragma once
 #include <array>
+#include <span>
 
+#include "physics/block_loop.hpp"
 #include "physics/fluid/spatial_order.hpp"
 #include "physics/fluid/walls/escape.hpp"
 #include "physics/fluid/walls/visibility.hpp"
@@ -35,7 +37,8 @@ class GhostWalls {
     // Decides which panels mirror which particles within `reach`, sorts the ghosts in space, makes room for them in
     // `particles` and places them. Particles up to half a spacing behind a panel still count as in front of it.
     // Throws std::invalid_argument if a period is shorter than the reach.
-    void rebuild(Particles<D>& particles, double spacing, double reach, const Vec<D>& gravity);
+    void rebuild(Particles<D>& particles, double spacing, double reach, const Vec<D>& gravity,
+                 BlockLoop loop = serial_loop);
 
     // For a checkpoint. Everything else is made by rebuild() and update_geometry().
     template <class Archive>
@@ -60,15 +63,16 @@ class GhostWalls {
     std::size_t hold_back(Particles<D>& particles, double spacing) const;
     // The deepest parent behind its panel.
     Escape deepest(const Particles<D>& particles) const;
-    // Sets near[i] for particles that were within `reach`, that of the last rebuild, of a panel or a seam of a periodic
-    // domain then, and whether particle i is within `reach` of where they stood.
-    void mark_near(const Particles<D>& particles, double reach, std::vector<std::uint8_t>& near) const;
+    // Whether particle i was within `reach`, that of the last rebuild, of a panel or a seam of a periodic domain then,
+    // and whether it is now within `reach` of where they stood.
+    bool was_near(const Particles<D>& particles, std::size_t i, double reach) const;
     bool is_near(const Particles<D>& particles, std::size_t i, double reach) const;
     // Where a ghost's parent stands before the panel or corner: shifted by a period if the wall's copy mirrors it.
     Vec<D> before_wall(const Particles<D>& particles, const Ghost& ghost) const;
 
   private:
-    static constexpr std::size_t ghosts_per_block = 256;  // so that the ghosts of a small scene keep two threads busy
+    // So that a small scene keeps two threads busy.
+    static constexpr std::size_t ghosts_per_block = 256, particles_per_part = 256;
     // x_G = origin + S (x_j - origin), v_G = T v_j + (1 - T) v_w
     struct Mirror {
         Vec<D> image, wall_velocity;
@@ -78,34 +82,44 @@ class GhostWalls {
     Mirror mirror(const Vec<D>& x, const Ghost& ghost) const;
     Mirror mirror_at_corner(const Vec<D>& x, const Corner<D>& corner) const;
     Vec<D> place(const Particles<D>& particles, const Ghost& ghost) const;
-    void collect(const Particles<D>& particles, double spacing, double reach);
-    void collect_panels(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell, double spacing,
-                        double reach);
-    bool mirrors_already(std::size_t first, const Vec<D>& x, const Ghost& ghost, double spacing) const;
-    void collect_corners(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell, double spacing,
-                         double reach);
-    void collect_images(const Particles<D>& particles, const Ghost& ghost, double reach);
-    bool owns(std::size_t panel, const Vec<D>& x) const;
-    void find_owners(double spacing, double reach);
-    bool sticks_out(const Particles<D>& particles, const Ghost& ghost, const Vec<D>& image) const;
-    bool is_held_by(std::size_t panel, const Vec<D>& x) const;
-
-    double least_depth_ = 0;  // ghosts stay at least this far behind the panel [m]
-    double corner_slack_ = 0;
-    SpatialOrder<D> order_;
-    Vectors<D> image_;
-    std::vector<Ghost> unsorted_;
-    // In 3D: flat facets, where shape functions must lie for a panel to own a foot, and sides beyond which the smooth
-    // surface goes on.
-    std::vector<int> facet_;
-    std::vector<std::array<double, D>> owned_from_;
-    std::vector<std::array<bool, D>> goes_on_;
     struct ByFacet {  // of the particle at hand
         int facet, copy;
         double inside;  // smallest shape function at the foot
         std::size_t ghost;
     };
-    std::vector<ByFacet> mirrored_by_;
+    struct Part {  // of the particles: what mirrors them
+        std::vector<Ghost> ghosts;
+        std::vector<ByFacet> mirrored_by;
+    };
+    void collect(const Particles<D>& particles, double spacing, double reach, BlockLoop loop);
+    void collect_panels(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell, double spacing,
+                        double reach, Part& part) const;
+    bool mirrors_already(std::span<const Ghost> of_particle, const Vec<D>& x, const Ghost& ghost, double spacing) const;
+    void collect_corners(std::size_t j, const Vec<D>& x, const typename PanelGrid<D>::Cell& cell, double spacing,
+                         double reach, std::vector<Ghost>& found) const;
+    void collect_images(const Particles<D>& particles, const Ghost& ghost, double reach,
+                        std::vector<Ghost>& found) const;
+    void place_images(const Particles<D>& particles, BlockLoop loop);
+    bool owns(std::size_t panel, const Vec<D>& x) const;
+    void find_owners(double spacing, double reach);
+    // Where an image lies: behind its wall, or beyond another side of the body behind it. `open_room`: the grid knows
+    // of nothing there that could be crossed.
+    enum class Side : std::uint8_t { behind, open_room, beyond };
+    Side side_of(const Particles<D>& particles, const Ghost& ghost, const Vec<D>& image) const;
+    bool is_held_by(std::size_t panel, const Vec<D>& x) const;
+
+    double least_depth_ = 0;  // ghosts stay at least this far behind the panel [m]
+    double corner_slack_ = 0;
+    SpatialOrder<D> order_;
+    std::vector<Part> parts_;
+    std::vector<Ghost> unsorted_;  // those of all parts, in order; and of each
+    Vectors<D> image_;
+    std::vector<Side> side_;
+    // In 3D: flat facets, where shape functions must lie for a panel to own a foot, and sides beyond which the smooth
+    // surface goes on.
+    std::vector<int> facet_;
+    std::vector<std::array<double, D>> owned_from_;
+    std::vector<std::array<bool, D>> goes_on_;
 };
 
 extern template class GhostWalls<2>;

@@ -87,7 +87,7 @@ void NormalFluxWalls<D>::rebuild(Particles<D>& particles, double spacing, double
     panels.update_geometry();
     points.cut(panels, spacing);
     if (is_periodic())
-        images.rebuild(particles, spacing, reach, Vec<D>::Zero());
+        images.rebuild(particles, spacing, reach, Vec<D>::Zero(), loop);
     else
         particles.resize(particles.count, 0);
     sight.prepare(particles, panels, reach, 0.5 * spacing);

@@ -9,7 +9,8 @@ namespace aquagraph::fluid {
 template <int D>
 void Visibility<D>::prepare(const Particles<D>& particles, const Panels<D>& panels, const PanelGrid<D>& grid,
                             const Periodic<D>& periodic, const std::vector<Ghost>& ghosts,
-                            const std::vector<Corner<D>>& corners, const std::vector<int>& patch, double tolerance) {
+                            const std::vector<Corner<D>>& corners, const std::vector<int>& patch, double tolerance,
+                            BlockLoop loop) {
     particles_ = &particles;
     panels_ = &panels;
     grid_ = &grid;
@@ -24,21 +25,28 @@ void Visibility<D>::prepare(const Particles<D>& particles, const Panels<D>& pane
     place_.resize(particles.count);
     cell_.resize(particles.count);
     clear_.resize(particles.count);
-    const double in_front = 1e-3 * tolerance;
-    for (std::size_t i = 0; i < particles.count; ++i) {
-        Vec<D>& x = place_[i];
-        for (int d = 0; d < D; ++d) x[d] = particles.x[std::size_t(d)][i];
-        cell_[i] = grid.at(x);
-        if (!cell_[i]) continue;
-        for (std::size_t entry = 0; entry < cell_[i]->panel.size(); ++entry) {
-            const auto panel = std::size_t(cell_[i]->panel[entry]);
-            const Vec<D> there = x - periodic.shift(cell_[i]->copy[entry]);
-            const double d = panels.height(panel, there);
-            if (d < in_front && d > -tolerance && panels.is_over(panel, there))
-                x += (in_front - d) * panels.normal[panel];
-        }
-        clear_[i] = cell_[i]->convex_room ? 0 : grid.clearance(*cell_[i], panels, x);
+    constexpr std::size_t per_part = 256;
+    loop((particles.count + per_part - 1) / per_part, [&](std::size_t part) {
+        const std::size_t end = std::min(particles.count, (part + 1) * per_part);
+        for (std::size_t i = part * per_part; i < end; ++i) find_place(i);
+    });
+}
+
+template <int D>
+void Visibility<D>::find_place(std::size_t i) {
+    const double in_front = 1e-3 * tolerance_;
+    Vec<D>& x = place_[i];
+    for (int d = 0; d < D; ++d) x[d] = particles_->x[std::size_t(d)][i];
+    cell_[i] = grid_->at(x);
+    if (!cell_[i]) return;
+    for (std::size_t entry = 0; entry < cell_[i]->panel.size(); ++entry) {
+        const auto panel = std::size_t(cell_[i]->panel[entry]);
+        const Vec<D> there = x - periodic_->shift(cell_[i]->copy[entry]);
+        const double d = panels_->height(panel, there);
+        if (d < in_front && d > -tolerance_ && panels_->is_over(panel, there))
+            x += (in_front - d) * panels_->normal[panel];
     }
+    clear_[i] = cell_[i]->convex_room ? 0 : grid_->clearance(*cell_[i], *panels_, x);
 }
 
 template <int D>

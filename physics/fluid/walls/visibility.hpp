@@ -36,7 +36,7 @@ class Visibility : public PairFilter<D> {
     // Prepares for the particles and ghosts as they stand. The arguments must outlive the last call of lanes_seen.
     void prepare(const Particles<D>& particles, const Panels<D>& panels, const PanelGrid<D>& grid,
                  const Periodic<D>& periodic, const std::vector<Ghost>& ghosts, const std::vector<Corner<D>>& corners,
-                 const std::vector<int>& patch, double tolerance);
+                 const std::vector<int>& patch, double tolerance, BlockLoop loop);
     bool sees_everything(std::size_t i) const override;
     std::uint8_t lanes_seen(std::size_t i, std::size_t cluster, std::uint8_t in_reach) const override;
     // The panel through which particle i sees ghost g, or -1 (no panel between them, or not seen).
@@ -51,6 +51,7 @@ class Visibility : public PairFilter<D> {
                             int other_panel, int entry_patch, const typename PanelGrid<D>::Crossing& crossing) const;
     bool goes_round_an_edge(const Cell& cell, int entry, const Vec<D>& target, const Vec<D>& from) const;
     void find_blunt_edges();
+    void find_place(std::size_t i);
     const Particles<D>* particles_ = nullptr;
     const Panels<D>* panels_ = nullptr;
     const PanelGrid<D>* grid_ = nullptr;
