@@ -129,12 +129,17 @@ void write_sections(const io::Study& study, const std::vector<StudyResult>& resu
         return;
     }
     const std::filesystem::path folder = std::filesystem::absolute(places.file).parent_path();
-    std::vector<std::string> plots;
     bool drawn = false;
-    for (const std::filesystem::path& plot : draw_plots(study, results, folder / "plots", coarse)) {
-        plots.push_back(plot.empty() ? "" : "plots/" + plot.filename().string());
-        drawn = drawn || !plot.empty();
-    }
+    const auto links = [&](const std::vector<std::filesystem::path>& files) {
+        std::vector<std::string> texts;
+        for (const std::filesystem::path& plot : files) {
+            texts.push_back(plot.empty() ? "" : "plots/" + plot.filename().string());
+            drawn = drawn || !plot.empty();
+        }
+        return texts;
+    };
+    const StudyPlots plots{links(draw_plots(study, results, folder / "plots", coarse)),
+                           links(draw_speedups(study, results, folder / "plots", threads, coarse))};
     if (!drawn)
         err << "aquagraph: no plots: gnuplot (Debian: gnuplot-nox) is not there, or no run has an error to draw\n";
     put_section(places.file, places.name, study_markdown(study, results, plots, threads, coarse));

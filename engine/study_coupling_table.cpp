@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/study_speedup.hpp"
+
 namespace aquagraph::engine {
 
 namespace {
@@ -16,16 +18,13 @@ std::string number(double value, const char* unit = "") {
 class CouplingTable {
   public:
     CouplingTable(const io::Study& study, std::size_t number, const std::vector<StudyResult>& results, int threads)
-        : study_(study), case_(study.cases[number]), threads_(threads) {
+        : study_(study), case_(study.cases[number]), threads_(threads), all_(results) {
         for (const StudyResult& result : results)
             if (result.run.study_case == number) results_.push_back(&result);
-        const auto axis = std::find_if(study.axes.begin(), study.axes.end(),
-                                       [&](const io::StudyAxis& a) { return a.name == case_.speedup; });
-        axis_ = axis == study.axes.end() ? -1 : int(axis - study.axes.begin());
     }
 
     std::string text() const {
-        const bool speedup = axis_ >= 0;
+        const bool speedup = speedup_axis(study_, case_) >= 0;
         std::string text = fmt::format(
             "Difference: root mean square from `{}` of {} over its peak. Roughness: total variation of `{}` over that "
             "of "
@@ -55,14 +54,6 @@ class CouplingTable {
 
   private:
     static double wall(const StudyResult& result) { return result.median(&RunRecord::wall_seconds); }
-    static double solid_step(const StudyResult& result) {
-        return result.median(
-            [](const RunRecord& r) { return r.solves > 0 ? r.solve_seconds / double(r.solves) : NAN; });
-    }
-    double fluid_step(const StudyResult& result) const {
-        return result.median([](const RunRecord& r) { return r.steps > 0 ? r.other_seconds / double(r.steps) : NAN; }) /
-               threads_;
-    }
     const StudyResult* find(double resolution, const auto& wanted) const {
         for (const StudyResult* result : results_)
             if (result->run.resolution == resolution && wanted(study_.variants[result->run.variant])) return result;
@@ -78,17 +69,9 @@ class CouplingTable {
         std::string text = fmt::format("| {} | {:g} |", variant.label, result.run.resolution);
         text += record ? fmt::format(" {} |", record->steps) : " |";
         if (speedup) {
-            const StudyResult* base = find(result.run.resolution, [&](const io::StudyVariant& other) {
-                std::vector<int> place = variant.place;
-                place[std::size_t(axis_)] = 0;
-                return other.place == place && other.base == variant.base;
-            });
-            const double ratio = base ? solid_step(*base) / fluid_step(*base) : NAN;
-            const double f = base ? result.run.step_fraction / base->run.step_fraction : NAN;
-            text += fmt::format(" {} | {} | {} | {} | {} |", number(1e3 * solid_step(result)),
-                                number(1e3 * fluid_step(result)), number(base ? wall(*base) / wall(result) : NAN),
-                                number(speedup_theory(result.run.parallel, result.run.ratio, ratio, f)),
-                                number(speedup_on_threads(result.run.parallel, result.run.ratio, ratio, f, threads_)));
+            const Speedup of = speedup_of(study_, all_, result, threads_);
+            text += fmt::format(" {} | {} | {} | {} | {} |", number(1e3 * of.solve), number(1e3 * of.fluid_step),
+                                number(of.measured), number(of.theory), number(of.shared));
         }
         const double away = record && right ? difference(record->curve, right->curve) : NAN;
         const double rough = record && right ? total_variation(record->curve) / total_variation(right->curve) : NAN;
@@ -104,7 +87,8 @@ class CouplingTable {
 
     const io::Study& study_;
     const io::StudyCase& case_;
-    int threads_, axis_ = -1;
+    int threads_;
+    const std::vector<StudyResult>& all_;
     std::vector<const StudyResult*> results_;
 };
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 
 #include "engine/child_process.hpp"
+#include "engine/study_speedup.hpp"
 #include "io/atomic_file.hpp"
 
 namespace aquagraph::engine {
@@ -55,6 +57,12 @@ struct Line {
     std::string label, points;
 };
 
+constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+                                "#8c564b", "#5e3c99", "#000000", "#a6a61d", "#e41a1c", "#7f7f7f"};
+std::string line_colour(std::size_t k) {
+    return fmt::format("linecolor rgb \"{}\"", colours[k % colours.size()]);
+}
+
 std::vector<std::string> parts_of(const std::string& label) {
     constexpr std::string_view parting = ", ";
     std::vector<std::string> parts;
@@ -66,9 +74,47 @@ std::vector<std::string> parts_of(const std::string& label) {
     return parts;
 }
 
+// In pixels: of the plot, of what it has without a key, of a line of the key.
+constexpr std::size_t width = 680, height = 420, line_height = 18;
+
+// The key stands below the plot, which keeps its size: as many columns as fit, a single line needs none.
+class Key {
+  public:
+    explicit Key(const std::vector<Line>& lines) : lines_(lines.size()) {
+        for (const Line& line : lines) longest_ = std::max(longest_, characters(line.label));
+    }
+    std::size_t rows() const {
+        if (lines_ == 1) return 0;
+        const std::size_t columns = std::max<std::size_t>(1, (width - 20) / (13 * longest_ / 2 + 55));
+        return (lines_ + columns - 1) / columns;
+    }
+    std::string text() const {
+        if (lines_ == 1) return "unset key\n";
+        // gnuplot takes letters for a fifth wider than they are.
+        return fmt::format(
+            "set key outside bottom center vertical Left reverse maxrows {} width -{} height 1 samplen 3\n", rows(),
+            longest_ / 5);
+    }
+
+  private:
+    std::size_t lines_, longest_ = 0;
+};
+
+// Everything but the lines themselves: file, size, axes, title, key.
+std::string frame(const std::string& file, const io::StudyCase& one, const Key& key, const std::string& axes,
+                  const std::string& x, const std::string& y) {
+    return fmt::format(
+        "set terminal svg size {},{} font \"sans-serif,12\" background rgb \"white\" noenhanced\nset output {}\n"
+        "set grid\n{}{}set title {}\nset xlabel {}\nset ylabel {}\n",
+        width, height + line_height * key.rows(), quoted(file), axes, key.text(),
+        quoted(one.title.empty() ? one.name : one.title), quoted(x), quoted(y));
+}
+
 // What is drawn for one case.
 class CasePlot {
   public:
+    static constexpr std::string_view suffix = "";
+
     CasePlot(const io::Study& study, std::size_t number, const std::vector<StudyResult>& results)
         : case_(study.cases[number]) {
         for (const std::string& name : case_.variants) {
@@ -96,17 +142,12 @@ class CasePlot {
             plot += fmt::format("{}$line{} with linespoints {} title {}", k > 0 ? ", " : "plot ", k, line_style(k),
                                 quoted(lines_[k].label));
         }
-        return fmt::format(
-            "set terminal svg size {},{} font \"sans-serif,12\" background rgb \"white\" noenhanced\nset output {}\n"
-            "set logscale xy\nset grid\n{}{}{}set title {}\nset xlabel 'wall time [s]'\nset ylabel {}\n{}{}\n",
-            width, height + line_height * rows(), quoted(file), time_.axis("x"), error_.axis("y"), key(),
-            quoted(case_.title.empty() ? case_.name : case_.title), quoted(quantity_ + " [%]"), data, plot);
+        return frame(file, case_, Key(lines_), "set logscale xy\n" + time_.axis("x") + error_.axis("y"),
+                     "wall time [s]", quantity_ + " [%]") +
+               data + plot + "\n";
     }
 
   private:
-    // In pixels: of the plot, of what it has without a key, of a line of the key.
-    static constexpr std::size_t width = 680, height = 420, line_height = 18;
-
     std::string point(const StudyResult& result) {
         const RunRecord* record = result.good();
         const RunError* error = record ? main_error(case_, *record) : nullptr;
@@ -118,39 +159,114 @@ class CasePlot {
         return fmt::format("{} {}\n", seconds, 100 * error->normalised);
     }
 
-    std::size_t longest_label() const {
-        std::size_t longest = 0;
-        for (const Line& line : lines_) longest = std::max(longest, characters(line.label));
-        return longest;
-    }
-    // The key stands below the plot, which keeps its size: as many columns as fit, a single line needs none.
-    std::size_t rows() const {
-        if (lines_.size() == 1) return 0;
-        const std::size_t columns = std::max<std::size_t>(1, (width - 20) / (13 * longest_label() / 2 + 55));
-        return (lines_.size() + columns - 1) / columns;
-    }
-    // gnuplot takes letters for a fifth wider than they are.
-    std::string key() const {
-        if (lines_.size() == 1) return "unset key\n";
-        return fmt::format(
-            "set key outside bottom center vertical Left reverse maxrows {} width -{} height 1 samplen 3\n", rows(),
-            longest_label() / 5);
-    }
-
     const io::StudyCase& case_;
     std::string quantity_;
     std::vector<Line> lines_;
     Range time_, error_;
 };
 
+// Speedup against the axis that is to give it.
+class SpeedupPlot {
+  public:
+    static constexpr std::string_view suffix = "_speedup";
+
+    SpeedupPlot(const io::Study& study, std::size_t number, const std::vector<StudyResult>& results, int threads)
+        : case_(study.cases[number]) {
+        const int axis = speedup_axis(study, case_);
+        if (axis < 0) return;
+        axis_ = study.axes[std::size_t(axis)].name;
+        for (const double resolution : case_.resolutions)
+            for (const std::string& first : case_.variants) {
+                const auto variant = std::find_if(study.variants.begin(), study.variants.end(),
+                                                  [&](const io::StudyVariant& v) { return v.name == first; });
+                if (variant == study.variants.end() || variant->place[std::size_t(axis)] != 0) continue;
+                Line measured, theory;
+                for (const StudyResult& result : results) {
+                    const io::StudyVariant& other = study.variants[result.run.variant];
+                    std::vector<int> place = other.place;
+                    place[std::size_t(axis)] = 0;
+                    if (result.run.study_case != number || result.run.resolution != resolution ||
+                        place != variant->place || other.base != variant->base)
+                        continue;
+                    const std::string& value =
+                        study.axes[std::size_t(axis)].values[std::size_t(other.place[std::size_t(axis)])];
+                    const Speedup of = speedup_of(study, results, result, threads);
+                    if (std::isfinite(of.measured)) measured.points += fmt::format("{} {}\n", value, of.measured);
+                    if (std::isfinite(of.shared)) theory.points += fmt::format("{} {}\n", value, of.shared);
+                    values_.push_back(value);
+                }
+                if (measured.points.empty()) continue;
+                measured.label = fmt::format("{}, {:g}", without_axis(variant->label), resolution);
+                measured_.push_back(measured);
+                theory_.push_back(theory);
+            }
+    }
+
+    bool empty() const { return measured_.empty(); }
+
+    std::string script(const std::string& file) const {
+        std::string data, plot = "plot ";
+        for (std::size_t k = 0; k < measured_.size(); ++k) {
+            data += fmt::format("$line{} << EOD\n{}EOD\n$theory{} << EOD\n{}EOD\n", k, measured_[k].points, k,
+                                theory_[k].points);
+            plot += fmt::format("{}$line{} with linespoints {} title {}, $theory{} with lines {} dashtype 2 notitle",
+                                k > 0 ? ", " : "", k, line_style(k), quoted(measured_[k].label), k, line_colour(k));
+        }
+        std::string tics;
+        double low = INFINITY, high = 0;
+        for (const std::string& value : values_) {
+            tics += (tics.empty() ? "" : ", ") + value;
+            low = std::min(low, std::atof(value.c_str()));
+            high = std::max(high, std::atof(value.c_str()));
+        }
+        return frame(file, case_, Key(measured_),
+                     fmt::format("set logscale x\nset xrange [{}:{}]\nset yrange [0:*]\nset xtics ({})\n", low / 1.1,
+                                 high * 1.1, tics),
+                     axis_, "speedup; dashed: theory on as many threads") +
+               data + plot + "\n";
+    }
+
+  private:
+    // "cps, p = 1, fixed" without what the axis says.
+    std::string without_axis(const std::string& label) const {
+        std::string text;
+        for (const std::string& part : parts_of(label))
+            if (!part.starts_with(axis_ + " = ")) text += (text.empty() ? "" : ", ") + part;
+        return text;
+    }
+
+    const io::StudyCase& case_;
+    std::string axis_;
+    std::vector<std::string> values_;  // of the axis
+    std::vector<Line> measured_, theory_;
+};
+
+// One plot for each case that has something to draw.
+template <class PlotOf>
+std::vector<std::filesystem::path> draw(const io::Study& study, const std::filesystem::path& folder, bool coarse,
+                                        const PlotOf& plot_of) {
+    std::vector<std::filesystem::path> files(study.cases.size());
+    if (!gnuplot("--version")) return files;
+    io::make_folder(folder);
+    for (std::size_t c = 0; c < study.cases.size(); ++c) {
+        const auto plot = plot_of(c);
+        if (plot.empty()) continue;
+        const std::string name =
+            fmt::format("{}_{}{}{}", study.name, study.cases[c].name, plot.suffix, coarse ? "-coarse" : "");
+        const std::filesystem::path file = folder / (name + ".svg"), script = folder / (name + ".gnuplot");
+        io::write_file_atomically(script, plot.script(file.string()));
+        if (gnuplot(script.string())) files[c] = file;
+        std::filesystem::remove(script);
+    }
+    return files;
+}
+
 }  // namespace
 
 std::string line_style(std::size_t k) {
-    constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-                                    "#8c564b", "#5e3c99", "#000000", "#a6a61d", "#e41a1c", "#7f7f7f"};
     constexpr std::array points = {7, 5, 9, 13, 11, 6, 4, 8, 12};  // gnuplot's: filled ones, then open ones
-    return fmt::format("linecolor rgb \"{}\" dashtype {} pointtype {}", colours[k % colours.size()],
-                       1 + k / colours.size() % 4, points[k % points.size()]);
+    return fmt::format("{} dashtype {} pointtype {}", line_colour(k), 1 + k / colours.size() % 4,
+                       points[k % points.size()]);
 }
 
 std::vector<std::string> telling_labels(const std::vector<std::string>& labels) {
@@ -184,19 +300,12 @@ std::vector<double> logarithmic_tics(double low, double high) {
 
 std::vector<std::filesystem::path> draw_plots(const io::Study& study, const std::vector<StudyResult>& results,
                                               const std::filesystem::path& folder, bool coarse) {
-    std::vector<std::filesystem::path> files(study.cases.size());
-    if (!gnuplot("--version")) return files;
-    io::make_folder(folder);
-    for (std::size_t c = 0; c < study.cases.size(); ++c) {
-        const CasePlot plot(study, c, results);
-        if (plot.empty()) continue;
-        const std::string name = fmt::format("{}_{}{}", study.name, study.cases[c].name, coarse ? "-coarse" : "");
-        const std::filesystem::path file = folder / (name + ".svg"), script = folder / (name + ".gnuplot");
-        io::write_file_atomically(script, plot.script(file.string()));
-        if (gnuplot(script.string())) files[c] = file;
-        std::filesystem::remove(script);
-    }
-    return files;
+    return draw(study, folder, coarse, [&](std::size_t c) { return CasePlot(study, c, results); });
+}
+
+std::vector<std::filesystem::path> draw_speedups(const io::Study& study, const std::vector<StudyResult>& results,
+                                                 const std::filesystem::path& folder, int threads, bool coarse) {
+    return draw(study, folder, coarse, [&](std::size_t c) { return SpeedupPlot(study, c, results, threads); });
 }
 
 }  // namespace aquagraph::engine

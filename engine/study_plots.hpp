@@ -1,4 +1,4 @@
-// Plots of a study: error against wall time, drawn by gnuplot.
+// Plots of a study, drawn by gnuplot: error against wall time, and speedup against the ratio that is to give it.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -25,5 +25,10 @@ std::vector<std::string> telling_labels(const std::vector<std::string>& labels);
 // not there.
 std::vector<std::filesystem::path> draw_plots(const io::Study& study, const std::vector<StudyResult>& results,
                                               const std::filesystem::path& folder, bool coarse);
+
+// For each case with a `speedup` axis, as FOLDER/NAME_CASE_speedup.svg: what was measured, beside the theory where
+// solve and fluid share the threads, against the axis. One pair of lines per resolution and choice of the other axes.
+std::vector<std::filesystem::path> draw_speedups(const io::Study& study, const std::vector<StudyResult>& results,
+                                                 const std::filesystem::path& folder, int threads, bool coarse);
 
 }  // namespace aquagraph::engine

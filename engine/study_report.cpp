@@ -147,8 +147,8 @@ double observed_order(double coarse_error, double fine_error, double coarse_h, d
     return std::log(coarse_error / fine_error) / std::log(coarse_h / fine_h);
 }
 
-std::string study_markdown(const io::Study& study, const std::vector<StudyResult>& results,
-                           const std::vector<std::string>& plots, int threads, bool coarse) {
+std::string study_markdown(const io::Study& study, const std::vector<StudyResult>& results, const StudyPlots& plots,
+                           int threads, bool coarse) {
     std::string text = fmt::format(
         "## {}{}\n\n{} Errors are the NRMS of each comparison, p their observed order from one resolution to "
         "the next; CPU is the time of all threads.\n",
@@ -161,8 +161,10 @@ std::string study_markdown(const io::Study& study, const std::vector<StudyResult
         text += fmt::format("\n### {}\n\n", one.title.empty() ? one.name : one.title);
         if (!one.curve.empty()) text += coupling_table(study, c, results, threads) + "\n";
         text += CaseTable(study, c, results).text(one.variants);
-        if (c < plots.size() && !plots[c].empty())
-            text += fmt::format("\n![{}: error against wall time]({})\n", one.name, plots[c]);
+        if (c < plots.errors.size() && !plots.errors[c].empty())
+            text += fmt::format("\n![{}: error against wall time]({})\n", one.name, plots.errors[c]);
+        if (c < plots.speedups.size() && !plots.speedups[c].empty())
+            text += fmt::format("\n![{}: speedup and its theory]({})\n", one.name, plots.speedups[c]);
     }
     return text;
 }

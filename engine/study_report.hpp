@@ -12,9 +12,14 @@ namespace aquagraph::engine {
 // p of e ~ h^p; NaN where an error is not a positive number.
 double observed_order(double coarse_error, double fine_error, double coarse_h, double fine_h);
 
-// The section without its markers. plots: the file of each case's plot as the Markdown refers to it; empty: none.
-std::string study_markdown(const io::Study& study, const std::vector<StudyResult>& results,
-                           const std::vector<std::string>& plots, int threads, bool coarse);
+// The files of each case's plots, as the Markdown refers to them; empty: none.
+struct StudyPlots {
+    std::vector<std::string> errors, speedups;
+};
+
+// The section without its markers.
+std::string study_markdown(const io::Study& study, const std::vector<StudyResult>& results, const StudyPlots& plots,
+                           int threads, bool coarse);
 
 // The table of one case with the variants that the study has for READMEs. everything: the file with the whole study, as
 // the README refers to it.

@@ -8,6 +8,7 @@
 #include "engine/study.hpp"
 #include "engine/study_plots.hpp"
 #include "engine/study_report.hpp"
+#include "engine/study_speedup.hpp"
 #include "io/atomic_file.hpp"
 #include "tests/engine/body_scenes.hpp"
 #include "tests/engine/scenes.hpp"
@@ -194,6 +195,58 @@ TEST_CASE("a plot keeps its size with many variants: their names stand below it"
     for (int v = 0; v < 18; ++v) CHECK(many.find(">p = " + std::to_string(v)) != std::string::npos);
     CHECK(one.find("p = 0") == std::string::npos);  // nothing to tell apart
     CHECK(height(many) > height(one) + 50);
+}
+
+TEST_CASE("a plot of speedups has a line and its theory for every choice of the other axes") {
+    if (std::system("gnuplot --version > /dev/null 2>&1") != 0) {
+        MESSAGE("gnuplot is not there");
+        return;
+    }
+    ScratchFolder scratch;
+    io::Study study;
+    study.name = "speed";
+    study.axes = {{"p", "coupling.ratio", {"1", "4"}, 0}, {"algorithm", "coupling.algorithm", {"cps", "css"}, 0}};
+    study.cases.resize(2);
+    std::vector<engine::StudyResult> results;
+    for (const std::size_t c : {0u, 1u}) {
+        study.cases[c].name = c == 0 ? "gate" : "tank";
+        study.cases[c].resolutions = {0.01};
+    }
+    study.cases[0].speedup = "p";  // of the other one nobody asks for it
+    for (const int algorithm : {0, 1})
+        for (const int p : {0, 1}) {
+            const std::string& value = study.axes[0].values[std::size_t(p)];
+            const std::string name = study.axes[1].values[std::size_t(algorithm)] + "_p" + value;
+            study.variants.push_back(
+                {name, (algorithm == 0 ? "cps, p = " : "css, p = ") + value, {}, "", {p, algorithm}, true});
+            for (const std::size_t c : {0u, 1u}) {
+                study.cases[c].variants.push_back(name);
+                engine::StudyResult& result = results.emplace_back();
+                result.run.study_case = c;
+                result.run.variant = study.variants.size() - 1;
+                result.run.resolution = 0.01;
+                result.run.parallel = algorithm == 0;
+                result.run.ratio = std::atoi(value.c_str());
+                // A solve of 3 s beside fluid steps of 2 s of two threads: t_FE/t_SPH = 3.
+                result.repeats.resize(1);
+                result.repeats[0].wall_seconds = p == 0 ? 8 : 4;
+                result.repeats[0].solves = result.repeats[0].steps = 10;
+                result.repeats[0].solve_seconds = 30;
+                result.repeats[0].other_seconds = 20;
+            }
+        }
+    const engine::Speedup of = engine::speedup_of(study, results, results[6], 2);  // CSS, p = 4
+    CHECK(of.solve == 3);
+    CHECK(of.fluid_step == 1);
+    CHECK(of.measured == 2);
+    CHECK(of.theory == doctest::Approx(4 * (1 + 3.0) / (4 + 3)));  // (6.9)
+    const auto files = engine::draw_speedups(study, results, scratch / "plots", 2, false);
+    REQUIRE(files.size() == 2);
+    CHECK(files[0].filename() == "speed_gate_speedup.svg");
+    CHECK(files[1].empty());
+    const std::string svg = contents(files[0]);
+    CHECK(svg.find(">cps, 0.01<") != std::string::npos);
+    CHECK(svg.find(">css, 0.01<") != std::string::npos);
 }
 
 TEST_CASE("finished runs are kept until the scene or the study wants something else") {
