@@ -187,7 +187,7 @@ def wedge_entry():
     for label, run in (("Δx 2 cm", Run("wedge_entry", "2cm", "fluid.spacing=0.02")), ("Δx 1 cm", fine)):
         history = run.history()
         force.plot(history["time"], history["wedge_force_y"] / 1000, label=label)
-    force.plot([0, 0.1], [0, 1.414], "k--", label="14.14 ρ V³ t")
+    force.plot([0, 0.1], [0, 1.402], "k--", label="14.02 ρ V³ t")
     force.set(xlabel="time [s]", ylabel="force on the wedge [kN/m]", xlim=(0, 0.1), ylim=(0, None))
     force.legend()
     save(figure, "wedge_entry")
