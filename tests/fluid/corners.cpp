@@ -179,6 +179,31 @@ TEST_CASE("where a body stands on a floor, or nearly, the corner is filled as on
     CHECK(plate_on_floor(1.2, 3, false).walls->corners.size() == 2);
 }
 
+TEST_CASE("a side of a body meets its floor once, however short its panels are") {
+    // Of these several vertices are nearer to the floor than half a spacing, at which a gap counts as closed; a body
+    // may also reach through its floor.
+    for (const double length : {0.45, 0.2, 0.05}) {  // of a panel, spacings
+        for (const double gap : {0.0, 0.13, -0.13}) {
+            CAPTURE(length);
+            CAPTURE(gap);
+            const double left = 12 * spacing, right = 15 * spacing, low = gap * spacing;
+            const int pieces = int(std::ceil((2 - low) / (length * spacing)));
+            std::vector<Vec2> outline;
+            for (int k = 0; k <= pieces; ++k) outline.push_back({left, low + k * (2 - low) / pieces});
+            for (int k = pieces; k >= 0; --k) outline.push_back({right, low + k * (2 - low) / pieces});
+            Panels<2> panels = tank(27 * spacing, 2);
+            panels.add_wall("body", outline, true, false);
+            const auto points = cells_where(27, 20, spacing, [&](const Point<2>& x) { return x[0] < left; });
+            const Driver<2> driver = settle(points, spacing, panels);
+            CHECK(driver.walls->corners.size() == 4);
+            const Spread near = spread(driver, below_surface);
+            CHECK(near.count == 12 * 16);
+            CHECK(near.least == doctest::Approx(inside().least).epsilon(1e-9));
+            CHECK(near.most == doctest::Approx(inside().least).epsilon(1e-9));
+        }
+    }
+}
+
 TEST_CASE("a plate thinner than R with water on both sides: the floor below its foot is seen once") {
     // The left water must see neither the ghosts of the right foot's corner nor those that the floor mirrors from the
     // right water: through the floor on its own side the left foot's corner has put ghosts already.

@@ -1,7 +1,10 @@
 #include "physics/fluid/walls/corners.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "physics/fluid/walls/panel_grid.hpp"
 
@@ -21,6 +24,38 @@ Vec<D> velocity_at(const Panels<D>& walls, std::size_t panel, const Vec<D>& x) {
     for (std::size_t v = 0; v < D; ++v)
         velocity += shape[v] * walls.velocity[std::size_t(walls.panels[panel].vertex[v])];
     return velocity;
+}
+
+// A corner between a body and the floor that it stands on.
+struct Contact {
+    Corner<2> corner;
+    bool at_end;      // of the body's panel, which rises from there
+    double distance;  // of the vertex from the floor [m]
+};
+
+// Where panels are shorter than what counts as closed, several vertices of one side are that near: the side meets the
+// floor once, at the nearest of them, or the water in the corner would be mirrored through it over and over.
+void keep_nearest(const Panels<2>& panels, std::vector<Contact>& contacts) {
+    const auto same_floor = [&](const Contact& a, const Contact& b) {
+        const auto m = std::size_t(a.corner.floor[0]), n = std::size_t(b.corner.floor[0]);
+        return panels.panels[m].wall == panels.panels[n].wall &&
+               panels.normal[m].dot(panels.normal[n]) > std::numbers::sqrt3 / 2;
+    };
+    const auto next_to = [&](const Contact& a, const Contact& b) {
+        const auto &k = panels.panels[std::size_t(a.corner.panel[0])].vertex,
+                   &l = panels.panels[std::size_t(b.corner.panel[0])].vertex;
+        return a.at_end == b.at_end && (k[1] == l[0] || l[1] == k[0]) && same_floor(a, b);
+    };
+    std::vector<Contact> kept;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+        bool nearest = true;
+        for (std::size_t other = 0; other < contacts.size() && nearest; ++other) {
+            const double mine = std::fabs(contacts[c].distance), its = std::fabs(contacts[other].distance);
+            if (its < mine || (its == mine && other < c)) nearest = !next_to(contacts[c], contacts[other]);
+        }
+        if (nearest) kept.push_back(contacts[c]);
+    }
+    contacts = std::move(kept);
 }
 }  // namespace
 
@@ -72,6 +107,7 @@ std::vector<Corner<2>> find_corners(const Panels<2>& panels, const PanelGrid<2>&
         add(corner);
     }
     // A vertex of k near the inside of a panel m of another wall; a body does not touch itself.
+    std::vector<Contact> contacts;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         for (const bool at_end : {false, true}) {
             const int vertex = panels.panels[k].vertex[at_end ? 1 : 0];
@@ -96,10 +132,12 @@ std::vector<Corner<2>> find_corners(const Panels<2>& panels, const PanelGrid<2>&
                 corner.away[0] = away;
                 corner.away[1] = opening > 0 ? panels.tangent[m] : Vec2(-panels.tangent[m]);
                 corner.sharp = corner.away[0].dot(corner.away[1]) > -std::numbers::sqrt2 / 2;
-                add(corner);
+                contacts.push_back({corner, at_end, distance});
             }
         }
     }
+    keep_nearest(panels, contacts);
+    for (const Contact& contact : contacts) add(contact.corner);
     return corners;
 }
 
