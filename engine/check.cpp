@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "engine/dry_start.hpp"
 #include "engine/forecast.hpp"
 #include "engine/results.hpp"
 #include "engine/sharp_corners.hpp"
@@ -117,6 +118,7 @@ void check_fluid(const io::Scene& scene, Model<D>& model, tasks::Executor& execu
     if constexpr (D == 2)
         if (model.walls)
             for (const std::string& corner : sharp_corners(model.walls->panels)) out << "warning    " << corner << "\n";
+    for (const DryStart<D>& dry : dry_starts(scene, model)) out << "warning    " << text_of(dry, model) << "\n";
     if (model.solid) print_solid(out, scene, model.solid->mesh());
     using Algorithm = io::CouplingAlgorithm;
     const Algorithm algorithm = scene.coupling.algorithm;

@@ -14,6 +14,7 @@
 #include "engine/checkpoints.hpp"
 #include "engine/cycle_graphs.hpp"
 #include "engine/diagnosis.hpp"
+#include "engine/dry_start.hpp"
 #include "engine/listings.hpp"
 #include "engine/results.hpp"
 #include "engine/sharp_corners.hpp"
@@ -119,12 +120,10 @@ class Run {
           graphs_(*model_, scene, results_, executor_, trace_ ? &*trace_ : nullptr) {}
 
     ExitCode whole() {
-        if (from_) restore();
-        if constexpr (D == 2)
-            if (!from_) {
-                warn_of_staggering();
-                warn_of_corners();
-            }
+        if (from_)
+            restore();
+        else
+            warn();
         const StopSignals signals;
         begin_ = std::chrono::steady_clock::now();
         const RunEnd end = computed(signals);
@@ -198,11 +197,16 @@ class Run {
         results_.frame_if_due();
     }
 
-    void warn_of_corners() requires(D == 2) {
-        if (!model_->walls) return;
-        for (const std::string& corner : sharp_corners(model_->walls->panels))
-            err_ << "aquagraph: warning: " << corner << "\n";
+    // Once, at the beginning: what may be meant and may be a slip.
+    void warn() {
+        for (const DryStart<D>& dry : dry_starts(scene_, *model_)) say_warning(text_of(dry, *model_));
+        if constexpr (D == 2) {
+            warn_of_staggering();
+            if (!model_->walls) return;
+            for (const std::string& corner : sharp_corners(model_->walls->panels)) say_warning(corner);
+        }
     }
+    void say_warning(const std::string& text) { err_ << "aquagraph: warning: " << text << "\n"; }
 
     // Bodies with many nodes are left to `check`: their modes take longer than a user should wait for a warning.
     void warn_of_staggering() requires(D == 2) {
@@ -211,7 +215,7 @@ class Run {
         const auto staggering = forecast_staggering(scene_, *model_);
         if (!staggering) return;
         const std::string warning = warning_of(*staggering, scene_);
-        if (!warning.empty()) err_ << "aquagraph: warning: " << warning << "\n";
+        if (!warning.empty()) say_warning(warning);
     }
 
     // Before anything is measured that an uninterrupted run would not measure.
