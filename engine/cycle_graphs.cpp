@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/listings.hpp"
+#include "engine/trials.hpp"
 
 namespace aquagraph::engine {
 
@@ -52,8 +53,7 @@ void CycleGraphs<D>::run() {
     Graphs& cycle = graphs(p);
     if (cycle.begin) {
         cycle.begin->run();
-        do cycle.steps.run();
-        while (!model_.interface->fixed_point.finished());
+        run_trials(*model_.interface, model_.clock, [&steps = cycle.steps] { steps.run(); });
         cycle.end->run();
     } else {
         cycle.steps.run();

@@ -73,6 +73,20 @@ std::string describe_particle(const Model<D>& model, const tasks::SickParticle& 
     return text;
 }
 
+constexpr const char* load_grows =
+    "  likely cause: the coupling is unstable, the load grows from step to step: make αs more negative, or lower cfl "
+    "or ratio; a light body in water needs ρ0 c0 Δt of a cycle well below its mass per area, or [coupling] "
+    "algorithm = \"iterated\"";
+
+// What was tried before it was given up.
+template <int D>
+std::string after_retreats(const Model<D>& model) {
+    const int retreats = model.interface ? model.interface->fixed_point.retreats() : 0;
+    if (retreats == 0) return {};
+    return fmt::format("\n  this is so however small the guess of the cycle's end, which has been halved {} times",
+                       retreats);
+}
+
 }  // namespace
 
 template <int D>
@@ -81,15 +95,12 @@ std::string describe(const Model<D>& model, const tasks::TaskError& error) {
     try {
         std::rethrow_exception(error.cause());
     } catch (const tasks::SickParticle& sick) {
-        return describe_particle(model, sick);
+        return describe_particle(model, sick) + after_retreats(model);
     } catch (const solid::ConvergenceError&) {
         if (model.structure)
             return fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps + 1);
-        return fmt::format(
-            "{} (t = {:.6g} s, step {})\n  likely cause: the coupling is unstable, the load grows from step to step: "
-            "make αs more negative, or lower cfl or ratio; a light body in water needs ρ0 c0 Δt of a cycle well below "
-            "its mass per area, or [coupling] algorithm = \"iterated\"",
-            error.what(), clock.time, clock.steps);
+        return fmt::format("{} (t = {:.6g} s, step {})\n{}", error.what(), clock.time, clock.steps, load_grows) +
+               after_retreats(model);
     } catch (...) {
         return fmt::format("{} (t = {:.6g} s, step {})", error.what(), clock.time, clock.steps);
     }

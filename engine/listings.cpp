@@ -21,7 +21,7 @@
 //
 // The iterated algorithm fixes Δt as CPS does, keeps the state, and runs the steps, the loads and a solve that reads
 // them over and over, from the same start and with another guess of where the wet nodes will be at the end, until the
-// solid agrees with the guess; then comes the exchange.
+// solid agrees with the guess; then comes the exchange. A guess that cannot be computed is halved (engine/trials.hpp).
 //
 // A body without water has a step of its own: structural_step() in engine/body_parts.hpp.
 #include "engine/listings.hpp"

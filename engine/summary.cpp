@@ -73,7 +73,8 @@ nlohmann::json summary_of(const io::Scene& scene, const Model<D>& model, const R
     if (model.interface && model.interface->fixed_point.total_iterations > 0)
         summary["iterations"] = {{"total", model.interface->fixed_point.total_iterations},
                                  {"cycles", model.interface->fixed_point.cycles},
-                                 {"unconverged_cycles", model.interface->fixed_point.unconverged}};
+                                 {"unconverged_cycles", model.interface->fixed_point.unconverged},
+                                 {"failed_trials", model.interface->fixed_point.failed_trials}};
     for (const PassTime& pass : end.figures.passes) {
         nlohmann::json entry = {
             {"calls", pass.calls}, {"wall_seconds", pass.wall_seconds}, {"thread_seconds", pass.busy_seconds}};

@@ -1,5 +1,7 @@
 #include "tasks/iteration.hpp"
 
+#include <utility>
+
 #include "physics/fluid/rebuild.hpp"
 #include "tasks/parallel_loop.hpp"
 #include "tasks/resources.hpp"
@@ -11,6 +13,7 @@ Task begin_iterations(const IteratedParts& parts, CycleStart& start) {
             .reads = {resource::clock, resource::fluid, resource::solid_state, resource::interface_motion},
             .writes = {resource::interface_guess},
             .body = [parts, &start] {
+                start.left = false;
                 start.fluid.take(parts.fluid, parts.clock);
                 start.works.resize(parts.works.size());
                 start.last_works.resize(parts.works.size());
@@ -34,7 +37,7 @@ Task back_to_start(const IteratedParts& parts, CycleStart& start) {
             .reads = {resource::interface_guess},
             .writes = {resource::clock, resource::fluid, resource::walls, resource::solid_state},
             .body = [parts, &start] {
-                if (parts.interface.fixed_point.iterations() == 0) return;  // there already
+                if (!std::exchange(start.left, true)) return;  // there already
                 const bool renewed = start.fluid.give_back(parts.fluid, parts.clock);
                 for (std::size_t k = 0; k < parts.works.size(); ++k) {
                     parts.works[k].ledger.sum = start.works[k];

@@ -14,6 +14,7 @@
 namespace aquagraph::tasks {
 
 struct CycleStart {
+    bool left = false;  // a trial has been begun: there is something to go back from
     fluid::Snapshot<2> fluid;
     std::vector<fluid::EnergyRates> works;  // of single walls: sums …
     std::vector<fluid::EnergyRates> last_works;
@@ -39,7 +40,7 @@ struct IteratedParts {
 
 // Keeps the state at the start of the cycle, whose length is known, and makes the first guess of its end.
 Task begin_iterations(const IteratedParts& parts, CycleStart& start);
-// Back to the start of the cycle, but for the guess.
+// Back to the start of the cycle, but for the guess; wherever the trial before has ended, or failed.
 Task back_to_start(const IteratedParts& parts, CycleStart& start);
 // Compares what the solid has come to with the guess and makes the next one.
 Task relaxation(const IteratedParts& parts, CycleStart& start);

@@ -15,13 +15,15 @@ double dot(std::span<const double> a, std::span<const double> b) {
 
 // Differences that lie in the others' span but for this part of their length teach nothing but rounding.
 constexpr double least_independent_part = 1e-6;
+constexpr int most_retreats = 8;  // to a 256th of the way
 
 }  // namespace
 
 void FixedPoint::begin(std::span<const double> start, std::span<const double> guess) {
     start_.assign(start.begin(), start.end());
     guess_.assign(guess.begin(), guess.end());
-    iterations_ = 0;
+    sound_ = start_;
+    iterations_ = retreats_ = 0;
     converged_ = false;
     omega_ = std::clamp(omega_, -1.0, 1.0);
 }
@@ -39,6 +41,8 @@ void FixedPoint::update(std::span<const double> computed) {
     const double norm = std::sqrt(dot(r_, r_)), moved = std::sqrt(moved2);
     ++iterations_;
     ++total_iterations;
+    sound_ = guess_;
+    retreats_ = 0;
     residual_ = moved > 0 ? norm / moved : 0;
     converged_ = norm <= choices.tolerance * moved;
 
@@ -119,6 +123,16 @@ void FixedPoint::quasi_newton(std::span<const double> computed) {
         const std::vector<double>& change = differences_[used_[j]].computed;
         for (std::size_t k = 0; k < guess_.size(); ++k) guess_[k] += coefficients_[j] * change[k];
     }
+}
+
+bool FixedPoint::retreat() {
+    ++failed_trials;
+    if (retreats_ == most_retreats) return false;
+    ++retreats_;
+    for (std::size_t k = 0; k < guess_.size(); ++k) guess_[k] = 0.5 * (guess_[k] + sound_[k]);
+    // Aitken's ω is the step that was made, in residuals of the last trial; the first guess of a cycle is none.
+    if (choices.relaxation == Relaxation::aitken && iterations_ > 0) omega_ *= 0.5;
+    return true;
 }
 
 void FixedPoint::end() {

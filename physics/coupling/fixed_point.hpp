@@ -8,6 +8,10 @@
 //                 with an inverse Jacobian from least squares (Degroote, Bathe & Vierendeels 2009), with differences of
 //                 the last cycles as well; the first of a run relaxes by 0.1
 // Converged: |r| <= tolerance × |S(y) - y_0|, y_0 being the state at the start of the cycle.
+//
+// A guess may be so far off that S(y) does not exist: the wall is driven through particles, or the solid cannot bear
+// their loads. It is then taken back half way to the last one for which S was computed, y_0 where there is none yet,
+// and tried again, up to eight times in a row.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -33,6 +37,8 @@ class FixedPoint {
     std::span<const double> guess() const { return guess_; }
     // S(guess) is known: the next guess, unless converged() or there have been enough iterations.
     void update(std::span<const double> computed);
+    // S(guess) could not be computed: a guess half as far from one that was. False: it has been halved often enough.
+    bool retreat();
     // The cycle is over: what it has taught is kept.
     void end();
 
@@ -40,11 +46,13 @@ class FixedPoint {
     bool finished() const { return converged_ || iterations_ >= choices.most; }
     int iterations() const { return iterations_; }  // of this cycle
     double residual() const { return residual_; }   // |r| over |S(y) - y_0|, of the last one
-    long total_iterations = 0, cycles = 0, unconverged = 0;
+    int retreats() const { return retreats_; }      // of the present guess
+    long total_iterations = 0, cycles = 0, unconverged = 0, failed_trials = 0;
 
     template <class Archive>
     void archive(Archive& fields) {  // for a checkpoint, between cycles
-        fields(omega_, iterations_, residual_, converged_, total_iterations, cycles, unconverged, differences_);
+        fields(omega_, iterations_, residual_, converged_, total_iterations, cycles, unconverged, failed_trials,
+               differences_);
     }
 
   private:
@@ -60,8 +68,9 @@ class FixedPoint {
     bool orthogonalise(std::size_t column, std::size_t rank);
 
     std::vector<double> start_, guess_, r_, last_r_, last_computed_;
+    std::vector<double> sound_;  // the last guess whose S was computed
     double omega_ = 0.1, residual_ = 0;
-    int iterations_ = 0;
+    int iterations_ = 0, retreats_ = 0;
     bool converged_ = false;
     std::vector<Difference> differences_;  // the latest first
     // Of the least squares: orthonormal columns, the triangle, which differences they belong to, coefficients.

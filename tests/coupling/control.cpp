@@ -272,3 +272,57 @@ TEST_CASE("iterations that do not converge are counted") {
     CHECK(fixed_point.unconverged == 1);
     CHECK(fixed_point.total_iterations == 3);
 }
+
+TEST_CASE("a guess that cannot be computed goes half the way back to the last one that could") {
+    for (const Relaxation relaxation : {Relaxation::aitken, Relaxation::quasi_newton}) {
+        CAPTURE(static_cast<int>(relaxation));
+        FixedPoint fixed_point;
+        fixed_point.choices = {.relaxation = relaxation, .tolerance = 1e-9, .most = 30};
+        const std::vector<double> start{1, 2}, guess{5, -6};
+        fixed_point.begin(start, guess);
+        REQUIRE(fixed_point.retreat());  // nothing has been computed: towards the start
+        CHECK(fixed_point.guess()[0] == 3);
+        CHECK(fixed_point.guess()[1] == -2);
+        REQUIRE(fixed_point.retreat());
+        CHECK(fixed_point.guess()[0] == 2);
+        CHECK(fixed_point.retreats() == 2);
+        const std::vector<double> sound(fixed_point.guess().begin(), fixed_point.guess().end());
+        fixed_point.update(std::vector<double>{12, 7});
+        CHECK(fixed_point.retreats() == 0);
+        const std::vector<double> next(fixed_point.guess().begin(), fixed_point.guess().end());
+        int times = 0;
+        while (fixed_point.retreat()) ++times;
+        CHECK(times == 8);
+        for (std::size_t k = 0; k < 2; ++k) {
+            CHECK(next[k] != sound[k]);
+            CHECK(fixed_point.guess()[k] - sound[k] == Approx((next[k] - sound[k]) / 256));
+        }
+        CHECK(fixed_point.failed_trials == 11);
+        CHECK(fixed_point.iterations() == 1);
+    }
+}
+
+TEST_CASE("iterations find a fixed point whose neighbourhood alone can be computed") {
+    // S exists within 2 of the solution only, and its steps overshoot that by far.
+    for (const Relaxation relaxation : {Relaxation::aitken, Relaxation::quasi_newton}) {
+        CAPTURE(static_cast<int>(relaxation));
+        AddedMass problem(12, 50.0);
+        for (double& b : problem.b) b = 3;
+        const std::vector<double> right = problem.solution();
+        FixedPoint fixed_point;
+        fixed_point.choices = {.relaxation = relaxation, .tolerance = 1e-6, .most = 400};
+        std::vector<double> start = right, guess = right;
+        start[0] += 1;
+        guess[0] += 30;
+        fixed_point.begin(start, guess);
+        do {
+            if (norm_of_difference(fixed_point.guess(), right) > 2)
+                REQUIRE(fixed_point.retreat());
+            else
+                fixed_point.update(problem(fixed_point.guess()));
+        } while (!fixed_point.finished());
+        CHECK(fixed_point.failed_trials > 0);
+        CHECK(fixed_point.converged());
+        CHECK(norm_of_difference(fixed_point.guess(), right) < 1e-4);
+    }
+}
