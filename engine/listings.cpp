@@ -28,6 +28,7 @@
 
 #include "engine/body_parts.hpp"
 #include "tasks/body_force.hpp"
+#include "tasks/either_walls.hpp"
 #include "tasks/fluid_pass.hpp"
 #include "tasks/flux_walls.hpp"
 #include "tasks/iteration.hpp"

@@ -1,21 +1,14 @@
 // Walls of the normal flux method as tasks: no ghosts, hence no passes over them; instead γ, and what walls add to
-// gradients and fluxes.
+// gradients and fluxes. What both kinds of walls have: either_walls.hpp.
 #pragma once
 #include "physics/clock.hpp"
-#include "physics/coupling/interface.hpp"
 #include "physics/fluid/fluid.hpp"
-#include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/normal_flux.hpp"
 #include "physics/fluid/walls/wall_forces.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
 
-// Moves the walls to `fraction` of the present step (0 … 1): those with a prescribed motion exactly, wet panels
-// extrapolated from the last exchange. moving and interface: null where the scene has none.
-template <int D>
-Task wall_motion(fluid::NormalFluxWalls<D>& walls, const fluid::MovingWalls<D>* moving,
-                 const coupling::Interface* interface, const Clock& clock, double fraction, const std::string& label);
 template <int D>
 Task wall_gamma(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const std::string& label);
 // After the gradients.
@@ -34,8 +27,5 @@ Task wall_fluxes(fluid::Fluid<D>& fluid, fluid::NormalFluxWalls<D>& walls, const
 template <int D>
 Task energy_ledger(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls,
                    std::vector<fluid::WallWork<D>>& works, const Clock& clock, int stage, const std::string& label);
-// After the last stage: NormalFluxWalls::hold_back.
-template <int D>
-Task wall_contact(fluid::Fluid<D>& fluid, const fluid::NormalFluxWalls<D>& walls, const std::string& label);
 
 }  // namespace aquagraph::tasks

@@ -13,20 +13,6 @@ fluid::Vec<D> gravity_of(const fluid::Fluid<D>& fluid) {
 }  // namespace
 
 template <int D>
-Task wall_motion(fluid::GhostWalls<D>& walls, const fluid::MovingWalls<D>* moving, const coupling::Interface* interface,
-                 const Clock& clock, double fraction, const std::string& label) {
-    return {.name = "wall motion (" + label + ")",
-            .reads = {resource::clock_step, resource::interface_motion, resource::fluid_lists},
-            .writes = {resource::walls},
-            .body = [&walls, moving, interface, &clock, fraction] {
-                if (moving) moving->place(walls.panels, clock.time + fraction * clock.step);
-                if constexpr (D == 2)
-                    if (interface) interface->surface.place(walls.panels, clock.elapsed + fraction * clock.step);
-                walls.update_geometry();
-            }};
-}
-
-template <int D>
 Task ghost_state(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label) {
     return {.name = "ghosts (" + label + ")",
             .reads = {resource::walls, resource::fluid_lists, resource::fluid_state},
@@ -35,16 +21,6 @@ Task ghost_state(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, cons
                 for_each_block(walls.blocks(), [&](std::size_t block) {
                     walls.update_state(fluid.particles, gravity_of(fluid), block);
                 });
-            }};
-}
-
-template <int D>
-Task wall_contact(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label) {
-    return {.name = "wall contact (" + label + ")",
-            .reads = {resource::walls, resource::fluid_lists},
-            .writes = {resource::fluid_state},
-            .body = [&fluid, &walls] {
-                book_loss(fluid, [&] { fluid.held_back += walls.hold_back(fluid.particles, fluid.spacing); });
             }};
 }
 
@@ -96,14 +72,8 @@ Task ghost_shift(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, cons
 
 template Task ghost_shift(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
 template Task ghost_shift(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
-template Task wall_motion(fluid::GhostWalls<2>&, const fluid::MovingWalls<2>*, const coupling::Interface*, const Clock&,
-                          double, const std::string&);
-template Task wall_motion(fluid::GhostWalls<3>&, const fluid::MovingWalls<3>*, const coupling::Interface*, const Clock&,
-                          double, const std::string&);
 template Task ghost_state(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
 template Task ghost_state(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
-template Task wall_contact(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
-template Task wall_contact(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
 template Task ghost_gradients(fluid::Fluid<2>&, const fluid::GhostWalls<2>&, const std::string&);
 template Task ghost_gradients(fluid::Fluid<3>&, const fluid::GhostWalls<3>&, const std::string&);
 

@@ -1,26 +1,16 @@
-// Walls of ghost particles as tasks, refreshed at every substep.
+// Walls of ghost particles as tasks, refreshed at every substep. What both kinds of walls have: either_walls.hpp.
 #pragma once
 #include "physics/clock.hpp"
-#include "physics/coupling/interface.hpp"
 #include "physics/fluid/fluid.hpp"
 #include "physics/fluid/walls/ghosts.hpp"
-#include "physics/fluid/walls/motion.hpp"
 #include "physics/fluid/walls/wall_forces.hpp"
 #include "tasks/task.hpp"
 
 namespace aquagraph::tasks {
 
-// Moves the walls to `fraction` of the present step (0 … 1): those with a prescribed motion exactly, wet panels
-// extrapolated from the last exchange. moving and interface: null where the scene has none.
-template <int D>
-Task wall_motion(fluid::GhostWalls<D>& walls, const fluid::MovingWalls<D>* moving, const coupling::Interface* interface,
-                 const Clock& clock, double fraction, const std::string& label);
 // Places the ghosts and gives them their parents' state.
 template <int D>
 Task ghost_state(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
-// After the last stage: stops lone particles at the walls (GhostWalls::hold_back).
-template <int D>
-Task wall_contact(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
 template <int D>
 Task ghost_gradients(fluid::Fluid<D>& fluid, const fluid::GhostWalls<D>& walls, const std::string& label);
 
