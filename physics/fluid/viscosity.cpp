@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "physics/fluid/motions.hpp"
 #include "physics/fluid/pair_loop.hpp"
 #include "physics/fluid/viscous_pair.hpp"
 
@@ -10,39 +11,23 @@ namespace aquagraph::fluid {
 namespace {
 
 template <int D, class Kernel, ViscousOperator form>
-struct ViscosityPass {
+struct ViscosityPass : Motions<D> {
+    using typename Motions<D>::Own;
+    using Motions<D>::x, Motions<D>::v;
     Kernel kernel;
     double dynamic;
-    const double* x[D];
-    const double* v[D];
     const double* volume;
     const double* mass;
     double* acceleration[D];
 
     ViscosityPass(Particles<D>& s, const Kernel& kernel, double dynamic)
-        : kernel(kernel), dynamic(dynamic), volume(s.volume.data()), mass(s.mass.data()) {
-        for (int d = 0; d < D; ++d) {
-            x[d] = s.x[d].data();
-            v[d] = s.v[d].data();
-            acceleration[d] = s.acceleration[d].data();
-        }
+        : Motions<D>(s), kernel(kernel), dynamic(dynamic), volume(s.volume.data()), mass(s.mass.data()) {
+        for (int d = 0; d < D; ++d) acceleration[d] = s.acceleration[d].data();
     }
 
-    struct Own {
-        double x[D], v[D];
-    };
     struct Sum {
         double laplacian[D][W];
     };
-
-    Own load(std::size_t i) const {
-        Own own;
-        for (int d = 0; d < D; ++d) {
-            own.x[d] = x[d][i];
-            own.v[d] = v[d][i];
-        }
-        return own;
-    }
 
     [[gnu::always_inline]] void pair(const Own& i, std::size_t j, double seen, Sum& sum, std::size_t l) const {
         double dx[D], dv[D], laplacian[D], r2 = 1e-200;

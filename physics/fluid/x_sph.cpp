@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "physics/fluid/motions.hpp"
 #include "physics/fluid/pair_loop.hpp"
 
 namespace aquagraph::fluid {
@@ -9,38 +10,22 @@ namespace aquagraph::fluid {
 namespace {
 
 template <int D, class Kernel>
-struct XSphPass {
+struct XSphPass : Motions<D> {
+    using typename Motions<D>::Own;
+    using Motions<D>::x, Motions<D>::v;
     Kernel kernel;
     double epsilon;
-    const double* x[D];
-    const double* v[D];
     const double* volume;
     double* shift[D];
 
     XSphPass(Particles<D>& s, const Kernel& kernel, double epsilon)
-        : kernel(kernel), epsilon(epsilon), volume(s.volume.data()) {
-        for (int d = 0; d < D; ++d) {
-            x[d] = s.x[d].data();
-            v[d] = s.v[d].data();
-            shift[d] = s.shift[d].data();
-        }
+        : Motions<D>(s), kernel(kernel), epsilon(epsilon), volume(s.volume.data()) {
+        for (int d = 0; d < D; ++d) shift[d] = s.shift[d].data();
     }
 
-    struct Own {
-        double x[D], v[D];
-    };
     struct Sum {
         double difference[D][W];
     };
-
-    Own load(std::size_t i) const {
-        Own own;
-        for (int d = 0; d < D; ++d) {
-            own.x[d] = x[d][i];
-            own.v[d] = v[d][i];
-        }
-        return own;
-    }
 
     [[gnu::always_inline]] void pair(const Own& i, std::size_t j, double seen, Sum& sum, std::size_t l) const {
         double r2 = 0;
