@@ -11,18 +11,13 @@
 #include "engine/calculix_command.hpp"
 #include "engine/calculix_results.hpp"
 #include "physics/solid/dead_loads.hpp"
+#include "tests/ccx.hpp"
 #include "tests/engine/session.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::test;
 
 namespace {
-
-bool ccx_is_missing() {
-    if (std::system("command -v ccx > /dev/null 2>&1") == 0) return false;
-    MESSAGE("skipped: ccx is not installed (Debian package calculix-ccx)");
-    return true;
-}
 
 template <int D>
 solid::Options<D> soft() {

@@ -174,6 +174,40 @@ velocity = [0.25, 0.0]
 ramp = 0.1
 )";
 
+// Water at rest between two plates 1 m apart that it sticks to, in a period of 1 m; µ 100 Pa s.
+inline const std::string plates = R"(schema_version = 1
+gravity = [0, 0]
+[time]
+end = 1.0
+[domain]
+min = [0, -0.1]
+max = [1, 1.1]
+periodic = ["x"]
+[fluid]
+spacing = 0.05
+sound_speed = 10
+[fluid.viscosity]
+dynamic = 100
+operator = "morris"
+[[fluid.box]]
+min = [0, 0]
+max = [1, 1]
+[[wall]]
+name = "lower"
+points = [[0, 0], [1, 0]]
+slip = "none"
+force = true
+[[wall]]
+name = "upper"
+points = [[1, 1], [0, 1]]
+slip = "none"
+force = true
+)";
+// The upper plate moves [m/s].
+inline std::string with_upper_plate_at(const std::string& scene, const std::string& speed) {
+    return scene + "[wall.motion.translation]\nvelocity = [" + speed + ", 0]\n";
+}
+
 // Water in space that falls freely: nothing acts on it but gravity.
 inline const std::string falling_block = R"(schema_version = 1
 title = "Falling block"

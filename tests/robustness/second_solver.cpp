@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <regex>
 
+#include "tests/ccx.hpp"
 #include "tests/robustness/program.hpp"
 
 using namespace aquagraph;
@@ -13,12 +14,6 @@ using namespace aquagraph::test;
 namespace {
 
 const std::vector<std::string> run{"run", "scene.toml", "--out", "results"};
-
-bool ccx_is_missing() {
-    if (std::system("command -v ccx > /dev/null 2>&1") == 0) return false;
-    MESSAGE("skipped: ccx is not installed (Debian package calculix-ccx)");
-    return true;
-}
 
 std::string by(const std::string& program, const std::string& scene = with(plate, "end = 0.1", "end = 0.05")) {
     return with(scene, "name = \"plate\"\n",

@@ -12,19 +12,15 @@
 
 #include "physics/solid/calculix_export.hpp"
 #include "physics/solid/readers/calculix.hpp"
+#include "tests/ccx.hpp"
 #include "tests/solid/fixtures.hpp"
 
 using namespace aquagraph;
 using namespace aquagraph::solid;
 using namespace aquagraph::solid::test;
+using aquagraph::test::ccx_is_missing;
 
 namespace {
-
-bool ccx_is_missing() {
-    if (std::system("command -v ccx > /dev/null 2>&1") == 0) return false;
-    MESSAGE("skipped: ccx is not installed (Debian package calculix-ccx)");
-    return true;
-}
 
 // The displacements that ccx prints last.
 template <int D>

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/solid/facet_tangents.hpp"
 #include "tests/solid/wheels.hpp"
 
 using namespace aquagraph;
@@ -25,35 +26,14 @@ double tangent_error(const Mesh<D>& mesh, const std::string& surface, const Grou
     Contact<D> contact{surface, ground, friction, 50.0};
     GroundContact<D> made(mesh, options, contact);
     const std::size_t size = D * mesh.nodes.size();
-    std::vector<double> u(size), matrices(made.matrix_size()), K(size * size, 0.0), plus(size), minus(size);
+    std::vector<double> u(size), matrices(made.matrix_size());
     for (std::size_t f = 0; f < size; ++f) u[f] = 0.02 * std::sin(3.0 * double(f) + 1);
     made.tangents({}, u, made.history(), matrices, serial_loop);
-    const double* entry = matrices.data();
-    for (const Facet& facet : mesh.surface(surface))
-        for (std::size_t r = 0; r < D * facet.size(); ++r)
-            for (std::size_t c = 0; c <= r; ++c, ++entry) {
-                const std::size_t row = D * std::size_t(facet[r / D]) + r % D,
-                                  column = D * std::size_t(facet[c / D]) + c % D;
-                K[row * size + column] += *entry;
-                if (c < r) K[column * size + row] += *entry;
-            }
-    double worst = 0, largest = 0;
-    for (std::size_t column = 0; column < size; ++column) {
-        constexpr double h = 1e-6;
-        std::vector<double> moved = u;
-        std::fill(plus.begin(), plus.end(), 0.0);
-        std::fill(minus.begin(), minus.end(), 0.0);
-        moved[column] += h;
-        made.add_forces(1, moved, plus, serial_loop);
-        moved[column] -= 2 * h;
-        made.add_forces(1, moved, minus, serial_loop);
-        for (std::size_t row = 0; row < size; ++row) {
-            worst = std::max(worst, std::abs(K[row * size + column] + (plus[row] - minus[row]) / (2 * h)));
-            largest = std::max(largest, std::abs(K[row * size + column]));
-        }
-    }
-    CHECK(largest > 0.1);
-    return worst / largest;
+    const TangentError error = facet_tangent_error<D>(
+        mesh.surface(surface), matrices, u,
+        [&](const auto& moved, auto& forces) { made.add_forces(1, moved, forces, serial_loop); });
+    CHECK(error.largest > 0.1);
+    return error.worst / error.largest;
 }
 
 double total_momentum(const Solver<2>& solver, std::size_t direction) {

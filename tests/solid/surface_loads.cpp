@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/solid/elements/dispatch.hpp"
+#include "tests/solid/facet_tangents.hpp"
 #include "tests/solid/wheels.hpp"
 
 using namespace aquagraph;
@@ -46,35 +47,15 @@ double tangent_error(std::size_t nodes) {
     options.pressures = {{"all", TimeFunction::constant(7)}};
     SurfaceLoads<D> loads(mesh, options);
     const std::size_t size = D * mesh.nodes.size();
-    std::vector<double> u(size), matrices(loads.matrix_size()), K(size * size, 0.0);
+    std::vector<double> u(size), matrices(loads.matrix_size()), forces(size);
     for (std::size_t f = 0; f < size; ++f) u[f] = 0.1 * std::sin(3.0 * double(f) + 1);
     loads.tangents(0, 1, u, matrices, serial_loop);
-    const double* entry = matrices.data();
-    for (const Facet& facet : mesh.surfaces["all"])
-        for (std::size_t r = 0; r < D * facet.size(); ++r)
-            for (std::size_t c = 0; c <= r; ++c, ++entry) {
-                const std::size_t row = D * std::size_t(facet[r / D]) + r % D,
-                                  column = D * std::size_t(facet[c / D]) + c % D;
-                K[row * size + column] += *entry;
-                if (c < r) K[column * size + row] += *entry;
-            }
-    double worst = 0, total[D] = {};
-    std::vector<double> plus(size), minus(size);
-    for (std::size_t column = 0; column < size; ++column) {
-        constexpr double h = 1e-6;
-        std::vector<double> moved = u;
-        std::fill(plus.begin(), plus.end(), 0.0);
-        std::fill(minus.begin(), minus.end(), 0.0);
-        moved[column] += h;
-        loads.add_forces(0, moved, plus, serial_loop);
-        moved[column] -= 2 * h;
-        loads.add_forces(0, moved, minus, serial_loop);
-        for (std::size_t row = 0; row < size; ++row)
-            worst = std::max(worst, std::abs(K[row * size + column] + (plus[row] - minus[row]) / (2 * h)));
-    }
-    for (std::size_t f = 0; f < size; ++f) total[f % D] += plus[f];
+    const auto add_forces = [&](const auto& moved, auto& to) { loads.add_forces(0, moved, to, serial_loop); };
+    add_forces(u, forces);
+    double total[D] = {};
+    for (std::size_t f = 0; f < size; ++f) total[f % D] += forces[f];
     for (const double force : total) CHECK(std::abs(force) < 1e-12);  // of a closed surface
-    return worst;
+    return facet_tangent_error<D>(mesh.surfaces["all"], matrices, u, add_forces).worst;
 }
 
 // The eighth of a hollow sphere by three patches; sets x, y, z on the planes of symmetry, surface inner.
