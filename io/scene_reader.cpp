@@ -83,18 +83,12 @@ class Filler {
 
     template <class E>
     void choose(const std::string& key, E& target, std::initializer_list<std::pair<std::string_view, E>> meanings) {
-        std::string word;
-        if (!document_.take(key, word)) return;
-        for (const auto& [name, value] : meanings)
-            if (name == word) target = value;
+        take_choice(document_, key, target, meanings);
     }
 
     template <class E, std::size_t n>
     void choose(const std::string& key, E& target, const Words<E, n>& meanings) {
-        std::string word;
-        if (!document_.take(key, word)) return;
-        for (const auto& [name, value] : meanings)
-            if (name == word) target = value;
+        take_choice(document_, key, target, meanings);
     }
 
     std::filesystem::path beside_the_scene(const std::string& path) const {

@@ -51,10 +51,7 @@ class SolidReader {
   private:
     template <class E, std::size_t n>
     void choose(const std::string& key, E& target, const Words<E, n>& meanings) {
-        std::string word;
-        if (!document_.take(key, word)) return;
-        for (const auto& [name, value] : meanings)
-            if (name == word) target = value;
+        take_choice(document_, key, target, meanings);
     }
 
     // Calls read(a new entry, "SECTION[i]") for each there is.

@@ -2,10 +2,12 @@
 // them.
 #pragma once
 #include <array>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "io/scene.hpp"
+#include "io/toml_document.hpp"
 
 namespace aquagraph::io {
 
@@ -71,6 +73,16 @@ inline constexpr Words<int, 3> direction_words{{{"x", 0}, {"y", 1}, {"z", 2}}};
 inline constexpr Words<int, 3> plane_freedom_words{{{"x", 0}, {"y", 1}, {"turn", 2}}};
 inline constexpr Words<int, 6> freedom_words{
     {{"x", 0}, {"y", 1}, {"z", 2}, {"turn_x", 3}, {"turn_y", 4}, {"turn_z", 5}}};
+
+// The meaning of the word that a document has at this key; without one `target`, the default, stays as it is. The word
+// is known to be one of these (CheckedDocument). meanings: Words, or a list of pairs.
+template <class E, class Meanings>
+void take_choice(const CheckedDocument& document, const std::string& key, E& target, const Meanings& meanings) {
+    std::string word;
+    if (!document.take(key, word)) return;
+    for (const auto& [name, value] : meanings)
+        if (name == word) target = value;
+}
 
 // The word for a meaning.
 template <class E, std::size_t n>
