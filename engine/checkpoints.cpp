@@ -43,7 +43,8 @@ RunFigures Checkpoints<D>::restore(const RestartPoint& from) {
         fields.must_be_at_the_end();
         remake(model_);
     } catch (const std::exception& error) {
-        throw io::CheckpointError(from.file.string() + " cannot be used: " + error.what());
+        throw io::CheckpointError(from.file.string() + " cannot be used: " + error.what() +
+                                  "; go on with that program, or start from the beginning, without --restart");
     }
     results_.resume();
     // Files are cut back: a later checkpoint could not go on with them.

@@ -20,6 +20,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t differences_shown = 8;
+// Where nothing can be done about the checkpoint itself.
+constexpr const char* afresh = "start from the beginning, without --restart";
 
 // Name and checksum of a file that the scene reads: the name alone would not tell that its content has changed.
 Json input_file(const std::filesystem::path& file) {
@@ -79,9 +81,9 @@ void add_differences(const Json& before, const Json& now, std::vector<std::strin
 void check_fits(const std::filesystem::path& file, const Json& about, const io::Scene& scene) {
     const std::string written_by = about.value("version", "unknown");
     if (written_by != version)
-        throw io::CheckpointError(fmt::format(
-            "{} was written by aquagraph {}, and this is {}: go on with that version, or start from the beginning",
-            file.string(), written_by, version));
+        throw io::CheckpointError(
+            fmt::format("{} was written by aquagraph {}, and this is {}: go on with that version, or {}", file.string(),
+                        written_by, version, afresh));
     std::vector<std::string> lines;
     add_differences(fixed_part(about.at("scene")), fixed_part(io::to_json(scene)), lines);
     add_differences(about.at("files"), input_files(scene), lines);
@@ -94,15 +96,59 @@ void check_fits(const std::filesystem::path& file, const Json& about, const io::
         file.string());
     for (const std::string& line : lines) text += "\n  " + line;
     if (more > 0) text += fmt::format("\n  and {} more", more);
-    throw io::CheckpointError(text);
+    throw io::CheckpointError(fmt::format("{}\ngo on with the scene as it was, or {}", text, afresh));
 }
 
-RestartPoint restart_point(const std::filesystem::path& file, io::CheckpointFile&& read, const io::Scene& scene,
-                           std::ostream& said) {
-    check_fits(file, read.about, scene);
-    said << fmt::format("continuing from {}: t = {:.6g} s, step {}\n", file.string(),
-                        read.about.at("time_s").get<double>(), read.about.at("steps").get<long>());
-    return {file, read.about.at("steps"), std::move(read.state)};
+struct WholeCheckpoint {
+    std::filesystem::path file;
+    io::CheckpointFile read;
+    long steps() const { return read.about.at("steps"); }
+};
+
+// Throws io::CheckpointError, and std::system_error where the file cannot be read.
+WholeCheckpoint whole_checkpoint(const std::filesystem::path& file) {
+    WholeCheckpoint whole{file, io::read_checkpoint(file)};
+    for (const char* key : {"scene", "files", "time_s", "steps"})
+        if (!whole.read.about.contains(key))
+            throw io::OtherFormat(fmt::format("{} does not say its \"{}\"", file.string(), key));
+    return whole;
+}
+
+// Of the two in a folder; pass_over(error) is told why one is not taken. Throws io::OtherFormat: neither is then
+// likely to be of any use.
+template <class PassOver>
+std::optional<WholeCheckpoint> newest_whole(const std::filesystem::path& folder, PassOver&& pass_over) {
+    std::optional<WholeCheckpoint> newest;
+    for (const int slot : {0, 1}) {
+        const std::filesystem::path file = checkpoint_file(folder, slot);
+        if (!std::filesystem::exists(file)) continue;
+        try {
+            WholeCheckpoint whole = whole_checkpoint(file);
+            if (!newest || whole.steps() > newest->steps()) newest = std::move(whole);
+        } catch (const io::OtherFormat&) {
+            throw;
+        } catch (const std::exception& error) {  // the other one may be whole
+            pass_over(error);
+        }
+    }
+    return newest;
+}
+
+// What to do where the checkpoint that was asked for is of no use.
+std::string instead(const std::filesystem::path& folder) {
+    try {
+        if (const auto whole = newest_whole(folder, [](const std::exception&) {}))
+            return fmt::format("go on from {}, as --restart auto does", whole->file.string());
+    } catch (const io::CheckpointError&) {
+    }
+    return fmt::format("there is no other in {}: {}", folder.string(), afresh);
+}
+
+RestartPoint restart_point(WholeCheckpoint&& from, const io::Scene& scene, std::ostream& said) {
+    check_fits(from.file, from.read.about, scene);
+    said << fmt::format("continuing from {}: t = {:.6g} s, step {}\n", from.file.string(),
+                        from.read.about.at("time_s").get<double>(), from.steps());
+    return {from.file, from.steps(), std::move(from.read.state)};
 }
 
 }  // namespace
@@ -125,32 +171,24 @@ Json about_run(const io::Scene& scene, double time, long steps) {
 std::optional<RestartPoint> find_restart_point(const io::Scene& scene, const std::filesystem::path& folder,
                                                const std::string& restart, std::ostream& said) {
     if (restart.empty()) return std::nullopt;
-    if (restart != "auto") return restart_point(restart, io::read_checkpoint(restart), scene, said);
-
-    struct Good {
-        std::filesystem::path file;
-        io::CheckpointFile read;
-    };
-    std::vector<Good> good;
-    for (const int slot : {0, 1}) {
-        const std::filesystem::path file = checkpoint_file(folder, slot);
-        if (!std::filesystem::exists(file)) continue;
-        try {
-            good.push_back({file, io::read_checkpoint(file)});
-        } catch (const io::OtherFormat&) {
-            throw;
-        } catch (const std::exception& error) {  // the other one may be whole
-            said << fmt::format("passing over a checkpoint: {}\n", error.what());
-        }
+    std::optional<WholeCheckpoint> from;
+    try {
+        if (restart == "auto")
+            from = newest_whole(folder, [&](const std::exception& error) {
+                said << fmt::format("passing over a checkpoint: {}\n", error.what());
+            });
+        else
+            from = whole_checkpoint(restart);
+    } catch (const io::OtherFormat& error) {
+        throw io::CheckpointError(fmt::format("{}; go on with the program that wrote it, or {}", error.what(), afresh));
+    } catch (const std::runtime_error& error) {
+        throw io::CheckpointError(fmt::format("{}; {}", error.what(), instead(folder)));
     }
-    if (good.empty()) {
+    if (!from) {
         said << fmt::format("no good checkpoint in {}: starting from the beginning\n", folder.string());
         return std::nullopt;
     }
-    auto newest = std::max_element(good.begin(), good.end(), [](const Good& a, const Good& b) {
-        return a.read.about.at("steps").get<long>() < b.read.about.at("steps").get<long>();
-    });
-    return restart_point(newest->file, std::move(newest->read), scene, said);
+    return restart_point(std::move(*from), scene, said);
 }
 
 }  // namespace aquagraph::engine

@@ -24,8 +24,8 @@ nlohmann::json about_run(const io::Scene& scene, double time, long steps);
 
 // `restart`: a file, or "auto" for the newest good one in `folder`; none there: the run starts from the beginning.
 // Says on `said` what it takes, and what is wrong with those it passes over. Throws io::CheckpointError for a file
-// that cannot be used, for one of another version and for another scene, saying what differs. The title, the end time,
-// [output]'s intervals and [[compare]] may change.
+// that cannot be used, for one of another version and for another scene, saying which file, what is wrong and what to
+// do. The title, the end time, [output]'s intervals and [[compare]] may change.
 std::optional<RestartPoint> find_restart_point(const io::Scene& scene, const std::filesystem::path& folder,
                                                const std::string& restart, std::ostream& said);
 

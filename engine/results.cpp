@@ -113,17 +113,22 @@ Results<D>::Results(const io::Scene& scene, Model<D>& model, std::filesystem::pa
 
 template <int D>
 void Results<D>::resume() {
-    const std::filesystem::path file = folder_ / "history.csv";
-    const io::History history = std::filesystem::exists(file) ? io::read_history(file) : io::History{};
-    const auto time = history.time();
-    if (std::find(time.begin(), time.end(), row_time_) == time.end())
+    try {
+        const std::filesystem::path file = folder_ / "history.csv";
+        const io::History history = std::filesystem::exists(file) ? io::read_history(file) : io::History{};
+        const auto time = history.time();
+        if (std::find(time.begin(), time.end(), row_time_) == time.end())
+            throw std::runtime_error(
+                fmt::format("{} has no row of t = {} s, with which the checkpoint goes on", file.string(), row_time_));
+        history_ = std::make_unique<io::HistoryWriter>(io::HistoryWriter::resume(file, columns_, row_time_));
+        fluid_series_ = io::FrameSeries::resume(folder_ / "fluid.hdf.series", frame_time_);
+        solid_series_ = io::FrameSeries::resume(folder_ / "solid.hdf.series", frame_time_);
+    } catch (const std::runtime_error& error) {
         throw std::runtime_error(
-            fmt::format("{} has no row of t = {} s, with which the checkpoint goes on: restart in "
-                        "the folder of the run (--out), or start from the beginning",
-                        file.string(), row_time_));
-    history_ = std::make_unique<io::HistoryWriter>(io::HistoryWriter::resume(file, columns_, row_time_));
-    fluid_series_ = io::FrameSeries::resume(folder_ / "fluid.hdf.series", frame_time_);
-    solid_series_ = io::FrameSeries::resume(folder_ / "solid.hdf.series", frame_time_);
+            fmt::format("{}: restart in the folder of the run (--out) with its files as they "
+                        "were, or start from the beginning, without --restart",
+                        error.what()));
+    }
     remove_later_frames(folder_, frames_);
     next_frame_ = next_due(frame_time_, scene_.output.frame_interval);
     if (scene_.output.history_interval > 0) next_row_ = next_due(row_time_, scene_.output.history_interval);

@@ -179,8 +179,10 @@ class Run {
         } catch (const solid::SolverError& error) {
             fails(error.what());
         } catch (const std::system_error& error) {
-            fails(fmt::format("{} (t = {:.6g} s, step {}); the checkpoint before, if there is one, is untouched",
-                              error.what(), clock.time, clock.steps));
+            fails(fmt::format(
+                "{} (t = {:.6g} s, step {}); the checkpoint before, if there is one, is untouched: see that "
+                "there is room and the right to write, then go on with --restart auto",
+                error.what(), clock.time, clock.steps));
         }
         if (progress) progress->finish();
         end.figures = figures();

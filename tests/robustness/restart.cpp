@@ -54,6 +54,8 @@ struct WithCheckpoints {
     }
 };
 
+using Refusals = std::vector<std::pair<std::string, std::string>>;  // a checkpoint and what is wrong with it
+
 bool says(const std::string& text, const std::string& what) {
     return text.find(what) != std::string::npos;
 }
@@ -142,7 +144,9 @@ TEST_CASE("a damaged checkpoint is passed over or refused") {
     const std::string older = contents(made.older), newer = contents(made.newer);
 
     made.overwrite(made.newer, newer.substr(0, newer.size() / 2));
-    CHECK(says(made.again({"--restart", made.newer.string()}, 2), "is cut off"));
+    const std::string cut = made.again({"--restart", made.newer.string()}, 2);
+    CHECK(says(cut, made.newer.filename().string() + " is cut off"));
+    CHECK(says(cut, "go on from results/" + made.older.filename().string()));
     CHECK(results_of(made.results) == made.whole);  // refused: nothing touched
     const std::string passed = made.again({"--restart", "auto"}, 0);
     CHECK(says(passed, "passing over a checkpoint"));
@@ -154,9 +158,16 @@ TEST_CASE("a damaged checkpoint is passed over or refused") {
     damaged[damaged.size() / 2] = char(damaged[damaged.size() / 2] + 1);
     made.overwrite(made.older, damaged);
     made.overwrite(made.newer, "not a checkpoint at all, but longer than its head is: 0123456789 0123456789\n");
-    CHECK(says(made.again({"--restart", made.older.string()}, 2), "is damaged"));
-    CHECK(says(made.again({"--restart", made.newer.string()}, 2), "is no checkpoint of aquagraph"));
-    CHECK(says(made.again({"--restart", "nowhere.aquagraph"}, 2), "nowhere.aquagraph cannot be read"));
+    const std::string none_left = "there is no other in results: start from the beginning, without --restart";
+    for (const auto& [file, wrong] :
+         Refusals{{made.older.string(), made.older.filename().string() + " is damaged"},
+                  {made.newer.string(), made.newer.filename().string() + " is no checkpoint of aquagraph"},
+                  {"nowhere.aquagraph", "nowhere.aquagraph cannot be read: No such file"}}) {
+        const std::string said = made.again({"--restart", file}, 2);
+        CAPTURE(said);
+        CHECK(says(said, wrong));
+        CHECK(says(said, none_left));
+    }
     CHECK(results_of(made.results) == made.whole);
     const std::string none = made.again({"--restart", "auto"}, 0);
     CHECK(says(none, "no good checkpoint in results: starting from the beginning"));
@@ -178,6 +189,7 @@ TEST_CASE("a checkpoint of another scene or version is refused with what differs
         CAPTURE(from);
         const std::string speed = made.again({"--restart", from, "--set", "fluid.sound_speed=31"}, 2);
         CHECK(says(speed, "fluid.sound_speed: 30.0 in the checkpoint, 31.0 now"));
+        CHECK(says(speed, "go on with the scene as it was, or start from the beginning"));
         CHECK(says(made.again({"--restart", from, "--set", "coupling.algorithm=css"}, 2),
                    "coupling.algorithm: \"cps\" in the checkpoint, \"css\" now"));
     }
@@ -190,15 +202,49 @@ TEST_CASE("a checkpoint of another scene or version is refused with what differs
     io::CheckpointFile read = io::read_checkpoint(made.older);
     read.about["version"] = "0.0.1";
     io::write_checkpoint(made.folder / "old.aquagraph", read.about, read.state);
-    CHECK(says(made.again({"--restart", "old.aquagraph"}, 2), "was written by aquagraph 0.0.1"));
+    const std::string old = made.again({"--restart", "old.aquagraph"}, 2);
+    CHECK(says(old, "old.aquagraph was written by aquagraph 0.0.1"));
+    CHECK(says(old, "go on with that version, or start from the beginning, without --restart"));
+    // By a program that says other things of its run; and one of another format.
+    nlohmann::json few = read.about;
+    few.erase("files");
+    io::write_checkpoint(made.folder / "few.aquagraph", few, read.state);
+    std::string format = contents(made.older);
+    format[format.find('\n') + 1] = char(io::checkpoint_format + 1);
+    made.overwrite(made.folder / "format.aquagraph", format);
+    for (const auto& [file, wrong] : Refusals{{"few.aquagraph", "few.aquagraph does not say its \"files\""},
+                                              {"format.aquagraph", "format.aquagraph is a checkpoint of format 2"}}) {
+        const std::string said = made.again({"--restart", file}, 2);
+        CAPTURE(said);
+        CHECK(says(said, wrong));
+        CHECK(says(said, "go on with the program that wrote it, or start from the beginning, without --restart"));
+    }
     // A state of other fields.
     read = io::read_checkpoint(made.older);
     io::write_checkpoint(made.folder / "short.aquagraph", read.about, read.state.substr(0, read.state.size() / 2));
-    CHECK(says(made.again({"--restart", "short.aquagraph"}, 2), "cannot be used: its part '"));
+    const std::string shortened = made.again({"--restart", "short.aquagraph"}, 2);
+    CHECK(says(shortened, "short.aquagraph cannot be used: its part '"));
+    CHECK(says(shortened, "go on with that program, or start from the beginning, without --restart"));
     // The results of another run.
     Program elsewhere(made.folder, {"run", "scene.toml", "--out", "elsewhere", "--restart", made.older.string()});
     CHECK(elsewhere.wait() == 2);
+    CHECK(says(elsewhere.err(), "elsewhere/history.csv has no row of t = "));
     CHECK(says(elsewhere.err(), "restart in the folder of the run"));
+    // Its own, but somebody has changed them.
+    const std::filesystem::path history = made.results.path / "history.csv";
+    const std::string rows = contents(history);
+    made.overwrite(history, with(rows, "time[s],", "moment[s],"));
+    const std::string others = made.again({"--restart", made.older.string()}, 2);
+    CHECK(says(others, "history.csv has other columns than this run writes: restart in the folder of the run"));
+    made.overwrite(history, rows);
+    const std::filesystem::path list = made.results.path / "fluid.hdf.series";
+    const std::string frames = contents(list);
+    made.overwrite(list, "{");
+    const std::string unlisted = made.again({"--restart", made.older.string()}, 2);
+    CHECK(says(unlisted, "fluid.hdf.series is no list of frames"));
+    CHECK(says(unlisted, "restart in the folder of the run"));
+    made.overwrite(list, frames);
+    made.overwrite(history, rows);
     CHECK(results_of(made.results) == made.whole);
 
     // What may change: the run goes on, further and with other intervals.
@@ -238,7 +284,7 @@ TEST_CASE("a disk that fills up ends the run and leaves the last good checkpoint
     const std::string good = contents(made.newer);
     const std::string full = made.again(with_more({"--restart", made.newer.string(), "--checkpoint-every", "1e-9"}), 3);
     CHECK(says(full, made.older.filename().string() + " cannot be written: No space left on device"));
-    CHECK(says(full, "is untouched"));
+    CHECK(says(full, "is untouched: see that there is room and the right to write, then go on with --restart auto"));
     CHECK(contents(made.newer) == good);
     CHECK(made.results.summary().at("outcome") == "failed");
     CHECK(made.results.column("time").back() < 0.03);
