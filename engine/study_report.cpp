@@ -58,6 +58,8 @@ class CaseTable {
         for (const std::string& name : variants)
             for (const auto& [variant, levels] : by_variant_)
                 if (study_.variants[variant].name == name) text += rows(variant, levels);
+        if (text.find("| failed: ") != std::string::npos)
+            text += "\nWhat a failed run said in full is in `said.txt` of its folder, CASE/VARIANT_RESOLUTION.\n";
         return text;
     }
 
@@ -77,8 +79,9 @@ class CaseTable {
             text += fmt::format("| {} | {:g} |", in_a_cell(label), result->run.resolution);
             const RunRecord* record = result->good();
             if (!record) {
-                text += fmt::format(" | failed: {} |",
-                                    in_a_cell(result->repeats.empty() ? "not run" : result->repeats[0].failure));
+                text += fmt::format(
+                    " | failed: {} |",
+                    in_a_cell(result->repeats.empty() ? "not run" : short_reason(result->repeats[0].failure)));
                 for (std::size_t k = 1; k < 2 * columns_.size() + 4; ++k) text += " |";
                 text += "\n";
                 coarser = nullptr;
@@ -145,6 +148,15 @@ struct Section {
 double observed_order(double coarse_error, double fine_error, double coarse_h, double fine_h) {
     if (!(coarse_error > 0) || !(fine_error > 0) || !(coarse_h > 0) || !(fine_h > 0) || coarse_h == fine_h) return NAN;
     return std::log(coarse_error / fine_error) / std::log(coarse_h / fine_h);
+}
+
+std::string short_reason(const std::string& failure) {
+    std::size_t begin = 0;
+    constexpr std::string_view task = "in task '", after = "': ";
+    if (failure.starts_with(task))
+        if (const std::size_t named = failure.find(after, task.size()); named != std::string::npos)
+            begin = named + after.size();
+    return failure.substr(begin, std::min(failure.find(" (", begin), failure.find(". ", begin)) - begin);
 }
 
 std::string study_markdown(const io::Study& study, const std::vector<StudyResult>& results, const StudyPlots& plots,

@@ -12,6 +12,10 @@ namespace aquagraph::engine {
 // p of e ~ h^p; NaN where an error is not a positive number.
 double observed_order(double coarse_error, double fine_error, double coarse_h, double fine_h);
 
+// Why a run failed, short enough for a cell of a table: without the task in which it did, what is in brackets and the
+// sentences that say what to do. The run's said.txt has all of it.
+std::string short_reason(const std::string& failure);
+
 // The files of each case's plots, as the Markdown refers to them; empty: none.
 struct StudyPlots {
     std::vector<std::string> errors, speedups;

@@ -323,8 +323,26 @@ TEST_CASE("a run that fails is a row that says so") {
     Bench bench(text);
     REQUIRE(bench.run(bench.options()) == engine::success);
     CHECK(lines_with(bench.results(), "failed: ") == 2);
+    // Short in its cell, in full where the run is.
+    std::istringstream lines(bench.results());
+    for (std::string line; std::getline(lines, line);)
+        if (line.find("failed: ") != std::string::npos) CHECK(line.size() < 200);
+    CHECK(lines_with(bench.results(), "`said.txt` of its folder") == 1);
+    CHECK(contents(bench.folder / "runs" / "patch" / "first_0.2" / "said.txt").find("likely cause") !=
+          std::string::npos);
     CHECK(lines_with(bench.results(), "| MUSCL |") == 2);
     CHECK(bench.said.find("2 runs have failed") != std::string::npos);
+}
+
+TEST_CASE("the reason in a cell is what went wrong, without where, numbers and remedy") {
+    CHECK(engine::short_reason(
+              "in task 'FE Newton solve, exchange': solid: Newton failed in step 12 of size 0.0009 s: the system "
+              "matrix is not positive definite (residual 444 N at first). Reduce the time step of the solid (or the "
+              "ratio p); if it fails at any step, look at the loads (t = 0.01 s, step 89)") ==
+          "solid: Newton failed in step 12 of size 0.0009 s: the system matrix is not positive definite");
+    CHECK(engine::short_reason("stopped after 0.3 s") == "stopped after 0.3 s");
+    CHECK(engine::short_reason("in task 'unended") == "in task 'unended");
+    CHECK(engine::short_reason("") == "");
 }
 
 TEST_CASE("a run that takes too long is stopped") {
