@@ -67,14 +67,17 @@ std::string describe_particle(const Model<D>& model, const tasks::SickParticle& 
     else if (sick.diagnosis.ailment == fluid::Ailment::left_domain)
         text += "a wall is missing or has a hole there; close it, enlarge the domain, or set edge = \"open\"";
     else if (model.solid)
-        text += "the coupling is unstable or the step too long: make αs more negative, or lower cfl or ratio";
+        text +=
+            "the coupling is unstable or the step too long: make [solid.scheme] alpha (αs) more negative, or lower "
+            "cfl or ratio";
     else
         text += "the step is too long: lower cfl";
     return text;
 }
 
 constexpr const char* load_grows =
-    "  likely cause: the coupling is unstable, the load grows from step to step: make αs more negative, or lower cfl "
+    "  likely cause: the coupling is unstable, the load grows from step to step: make [solid.scheme] alpha (αs) more "
+    "negative, or lower cfl "
     "or ratio; a light body in water needs ρ0 c0 Δt of a cycle well below its mass per area, or [coupling] "
     "algorithm = \"iterated\"";
 

@@ -40,10 +40,6 @@ io::CellType cell_type(const solid::Element& element) {
                                   : io::CellType::quadratic_hexahedron;
 }
 
-}  // namespace
-
-namespace {
-
 template <int D>
 using Components = std::array<std::vector<double>, D>;
 
@@ -54,6 +50,9 @@ Components<D> components(std::span<const double> interleaved) {
     return parts;
 }
 
+// Views of the parts, hence not of some that are about to go.
+template <int D>
+io::VtkArray vector_array(const std::string& name, Components<D>&& parts) = delete;
 template <int D>
 io::VtkArray vector_array(const std::string& name, const Components<D>& parts) {
     io::VtkArray array{name, {}};

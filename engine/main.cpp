@@ -140,7 +140,7 @@ Command study(CLI::App& app) {
         ->take_all()
         ->allow_extra_args(false);
     command.add_flag("--coarse", options->coarse, "The coarse resolutions only");
-    command.add_flag("--list", options->list, "Say what would be run");
+    command.add_flag("--list", options->list, "Say what would be run, and run nothing");
     command.add_flag("--fresh", options->fresh, "Run again what an earlier start has finished");
     command.add_option("--repeats", options->repeats, "Runs of everything (default: the study's)")
         ->check(CLI::Range(1, 100));
@@ -168,7 +168,7 @@ std::string wrong_command(const std::vector<Command>& commands, int argc, char**
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Smoothed Particle Hydrodynamics and Finite Elements, coupled as a graph of tasks");
+    CLI::App app("Smoothed Particle Hydrodynamics and Finite Elements, coupled as a graph of tasks", "aquagraph");
     app.set_version_flag("--version", std::string("aquagraph ") + engine::version);
     app.require_subcommand(1);
     std::vector<Command> commands;

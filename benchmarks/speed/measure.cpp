@@ -280,7 +280,10 @@ int main(int argc, char** argv) {
         const auto known = [&](const auto& section) {
             return k + 1 < argc && section.name == std::string(argv[k + 1]);
         };
-        if (argument == "--print") {
+        if (argument == "--help" || argument == "-h") {
+            std::cout << usage;
+            return 0;
+        } else if (argument == "--print") {
             print = true;
         } else if (argument == "--only" && std::any_of(std::begin(sections), std::end(sections), known)) {
             only = argv[++k];

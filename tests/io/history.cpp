@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "io/atomic_file.hpp"
 #include "io/comparison.hpp"
@@ -19,7 +20,15 @@ using test::ScratchFolder;
 
 namespace {
 const std::vector<io::HistoryColumn> columns{{"time", "s"}, {"tip_x", "m"}, {"count", ""}};
-}
+
+// Views of what is about to go would be views of nothing.
+template <class T>
+concept GivesViews = requires(T&& history) {
+    std::forward<T>(history).time();
+    std::forward<T>(history).column("tip_x");
+};
+static_assert(GivesViews<io::History&> && GivesViews<const io::History&> && !GivesViews<io::History>);
+}  // namespace
 
 TEST_CASE("the history reads back bit by bit") {
     ScratchFolder folder;
