@@ -2,6 +2,7 @@
 // corners in the plane and in space.
 #pragma once
 #include <algorithm>
+#include <cmath>
 
 #include "tests/fluid/basins.hpp"
 
@@ -32,17 +33,20 @@ Spread spread(const Driver<D>& driver, Chosen&& chosen) {
     return found;
 }
 
-// Seen places closer than 0.3 Δx to each other: each would count twice. Not counted are those of a line of sight that
-// grazes, for which grazes(i, j): rounding decides where it enters the wall.
+// Seen places closer than 0.3 Δx to each other: each would count twice, unless the two share it
+// (walls/edge_shares.hpp). Not counted are those of a line of sight that grazes, for which grazes(i, j): rounding
+// decides where it enters the wall.
 template <int D, class Grazes>
 std::size_t places_seen_twice(const Driver<D>& driver, Grazes&& grazes) {
     const auto& s = driver.fluid.particles;
+    const double once = 1.001 * std::pow(driver.fluid.spacing, D);
     std::size_t twice = 0;
     for (std::size_t i = 0; i < s.count; ++i) {
         const auto seen = neighbours_of(driver.fluid, i);
         for (std::size_t a = 0; a < seen.size(); ++a)
             for (std::size_t b = 0; b < a; ++b)
-                twice += distance(s, seen[a], seen[b]) < 0.3 * driver.fluid.spacing && !grazes(i, seen[a]);
+                twice += distance(s, seen[a], seen[b]) < 0.3 * driver.fluid.spacing &&
+                         s.volume[seen[a]] + s.volume[seen[b]] > once && !grazes(i, seen[a]);
     }
     return twice;
 }

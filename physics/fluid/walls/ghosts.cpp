@@ -20,6 +20,7 @@ template <int D>
 void GhostWalls<D>::update_geometry() {
     panels.update_geometry();
     for (Corner<D>& corner : corners) corner.update(panels);
+    shares.update(panels);
 }
 
 template <int D>
@@ -37,8 +38,10 @@ void GhostWalls<D>::rebuild(Particles<D>& particles, double spacing, double reac
         corners = find_corners(panels, grid, facet_, 0.5 * spacing);
         grid.add_corners(corners);
         find_owners(spacing, reach);
+        shares.find_edges(panels, patch, spacing, reach);
     } else {  // walls that have come back to where they were have taken their corners along in between
         for (Corner<D>& corner : corners) corner.update(panels);
+        shares.update(panels);
     }
     collect(particles, spacing, reach, loop);
     place_images(particles, loop);
@@ -46,9 +49,10 @@ void GhostWalls<D>::rebuild(Particles<D>& particles, double spacing, double reac
     ghosts.resize(unsorted_.size());
     for (std::size_t g = 0; g < ghosts.size(); ++g) ghosts[g] = unsorted_[order[g]];
 
+    find_shares(particles);
     particles.resize(particles.count, ghosts.size());
     loop(blocks(), [&](std::size_t block) { update_state(particles, gravity, block); });
-    visibility.prepare(particles, panels, grid, periodic, ghosts, corners, patch, 0.5 * spacing, loop);
+    visibility.prepare(particles, panels, grid, periodic, ghosts, corners, shares, patch, 0.5 * spacing, loop);
 }
 
 // Images beyond another side of a body make the grid look closely around them, which may show that others stick out:
@@ -73,6 +77,19 @@ void GhostWalls<D>::place_images(const Particles<D>& particles, BlockLoop loop) 
         grid.look_closely_around(image, panels);
         has_looked = true;
     }
+}
+
+template <int D>
+void GhostWalls<D>::find_shares(const Particles<D>& particles) {
+    shares.clear();
+    if (shares.edges().empty()) return;
+    for (std::size_t g = 0; g < ghosts.size(); ++g) {
+        if (ghosts[g].panel < 0) continue;
+        const auto panel = std::size_t(ghosts[g].panel);
+        shares.add(std::uint32_t(g), patch[panel], panels.normal[panel],
+                   mirror(before_wall(particles, ghosts[g]), ghosts[g]).image, particles.volume[ghosts[g].parent]);
+    }
+    shares.weigh();
 }
 
 template <int D>
@@ -369,6 +386,11 @@ void GhostWalls<D>::update_state(Particles<D>& particles, const Vec<D>& gravity,
         particles.volume[lane] = particles.volume[j];
         // Water goes over into its periodic image, not through a wall.
         if (particles.has_mass_exchange) particles.exchange[lane] = ghost.is_image() ? 1 : 0;
+    }
+    for (const auto& share : shares.of(begin, end)) {
+        const Ghost& ghost = ghosts[share.ghost];
+        const Vec<D> image = mirror(before_wall(particles, ghost), ghost).image;
+        particles.volume[particles.ghost_begin() + share.ghost] *= shares.weight(share, image);
     }
 }
 

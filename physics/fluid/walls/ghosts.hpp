@@ -7,6 +7,7 @@
 //     free slip  v_G = v_j + 2 ((v_w - v_j)·n) n,     no slip  v_G = 2 v_w - v_j,
 // and the mirrored gradients, so that reconstruction works across the wall as it does inside. Corners that the fluid
 // fills to less than 180° also reflect through their point, edges rotate by 180° about their line (walls/corners.hpp).
+// Behind convex edges two ghosts share every place (walls/edge_shares.hpp): ω_G = w ω_j there.
 // A particle has one ghost per flat facet, however many triangles it is made of. Which panels mirror which particles is
 // decided when the neighbour lists are built; positions and states follow parents and panels at every substep.
 //
@@ -30,6 +31,7 @@ class GhostWalls {
     Periodic<D> periodic;  // set before the first rebuild
     std::vector<Ghost> ghosts;
     std::vector<Corner<D>> corners;
+    EdgeShares<D> shares;
     std::vector<int> patch;  // smooth patch of each panel
     PanelGrid<D> grid;
     Visibility<D> visibility;
@@ -82,6 +84,7 @@ class GhostWalls {
     Mirror mirror(const Vec<D>& x, const Ghost& ghost) const;
     Mirror mirror_at_corner(const Vec<D>& x, const Corner<D>& corner) const;
     Vec<D> place(const Particles<D>& particles, const Ghost& ghost) const;
+    void find_shares(const Particles<D>& particles);
     struct ByFacet {  // of the particle at hand
         int facet, copy;
         double inside;  // smallest shape function at the foot

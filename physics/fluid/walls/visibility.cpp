@@ -9,14 +9,15 @@ namespace aquagraph::fluid {
 template <int D>
 void Visibility<D>::prepare(const Particles<D>& particles, const Panels<D>& panels, const PanelGrid<D>& grid,
                             const Periodic<D>& periodic, const std::vector<Ghost>& ghosts,
-                            const std::vector<Corner<D>>& corners, const std::vector<int>& patch, double tolerance,
-                            BlockLoop loop) {
+                            const std::vector<Corner<D>>& corners, const EdgeShares<D>& shares,
+                            const std::vector<int>& patch, double tolerance, BlockLoop loop) {
     particles_ = &particles;
     panels_ = &panels;
     grid_ = &grid;
     periodic_ = &periodic;
     ghosts_ = &ghosts;
     corners_ = &corners;
+    shares_ = &shares;
     patch_ = &patch;
     find_blunt_edges();
     tolerance_ = tolerance;
@@ -137,7 +138,7 @@ bool Visibility<D>::sees(std::size_t i, const Cell& cell, std::size_t lane, int*
     }
     // Past the end of a wall that just stops, a ghost is seen from the wall's front.
     if (crossing.entry < 0) return in_front_of(ghost->panel);
-    if (of(*entry) != of(ghost->panel)) return false;
+    if (of(*entry) != of(ghost->panel)) return shares_->seen_through(lane - ghost_begin, of(*entry));
     // The reflected line of sight, from where it enters the wall, or a hair off it, to the parent: at an edge the other
     // side would else hide the parent or not as rounding has it.
     constexpr double hair = 1e-9;

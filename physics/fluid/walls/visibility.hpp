@@ -8,6 +8,8 @@
 //   smooth patch: every place behind a wall is then seen once, however thin the body and at convex corners too.
 //   The way that the wall reflects this line of sight must lead to the ghost's parent without meeting another patch:
 //   water beyond a plate that stands on a floor is not seen in the floor before it.
+// - Behind an edge whose two sides share what lies there (walls/edge_shares.hpp) a ghost of either is seen through
+// both.
 // - A corner's ghost is seen through any of the corner's patches, from in front of all of them; that of an edge in 3D
 // if
 //   the line of sight, mirrored by one of the edge's panels, reaches the other before anything else.
@@ -16,6 +18,7 @@
 // Particles that have slid behind a panel by less than half a spacing are treated as being just in front of it.
 #pragma once
 #include "physics/fluid/neighbour_search.hpp"
+#include "physics/fluid/walls/edge_shares.hpp"
 #include "physics/fluid/walls/panel_grid.hpp"
 
 namespace aquagraph::fluid {
@@ -36,7 +39,7 @@ class Visibility : public PairFilter<D> {
     // Prepares for the particles and ghosts as they stand. The arguments must outlive the last call of lanes_seen.
     void prepare(const Particles<D>& particles, const Panels<D>& panels, const PanelGrid<D>& grid,
                  const Periodic<D>& periodic, const std::vector<Ghost>& ghosts, const std::vector<Corner<D>>& corners,
-                 const std::vector<int>& patch, double tolerance, BlockLoop loop);
+                 const EdgeShares<D>& shares, const std::vector<int>& patch, double tolerance, BlockLoop loop);
     bool sees_everything(std::size_t i) const override;
     std::uint8_t lanes_seen(std::size_t i, std::size_t cluster, std::uint8_t in_reach) const override;
     // The panel through which particle i sees ghost g, or -1 (no panel between them, or not seen).
@@ -58,6 +61,7 @@ class Visibility : public PairFilter<D> {
     const Periodic<D>* periodic_ = nullptr;
     const std::vector<Ghost>* ghosts_ = nullptr;
     const std::vector<Corner<D>>* corners_ = nullptr;
+    const EdgeShares<D>* shares_ = nullptr;
     const std::vector<int>* patch_ = nullptr;
     // The panels within reach of particle i, fewer than its cell's. Valid until the thread's next call.
     const Cell& panels_near(std::size_t i) const;
