@@ -89,14 +89,14 @@ void EdgeShares<D>::clear() {
 }
 
 template <int D>
-void EdgeShares<D>::add(std::uint32_t ghost, int patch, const Vec<D>& normal, const Vec<D>& image, double volume) {
+void EdgeShares<D>::add(std::uint32_t ghost, int patch, const Vec<D>& normal, const Vec<D>& image) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
         const SharedEdge<D>& edge = edges_[e];
         for (const std::size_t side : {0u, 1u}) {
             if (patch != edge.patch[side] || !goes_on(normal, edge.normal[side])) continue;
             if ((image - edge.point).squaredNorm() > 4 * reach_ * reach_) continue;
             shares_.push_back({ghost, std::uint32_t(e), std::uint32_t(side)});
-            images_.push_back({image, volume});
+            images_.push_back(image);
         }
     }
 }
@@ -108,8 +108,7 @@ void EdgeShares<D>::weigh() {
         double present[2] = {0, 0};
         for (std::size_t l = 0; l < shares_.size(); ++l)
             if (shares_[l].edge == shares_[k].edge)
-                present[shares_[l].side == shares_[k].side ? 0 : 1] +=
-                    kernel.value((images_[k].x - images_[l].x).norm()) * images_[l].volume;
+                present[shares_[l].side == shares_[k].side ? 0 : 1] += kernel.value((images_[k] - images_[l]).norm());
         shares_[k].others = smooth_step(2 * present[1] / present[0]);
     }
 }

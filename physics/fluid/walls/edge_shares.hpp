@@ -12,7 +12,8 @@
 // drives particles away from the edge: the still tank's benchmark has the measurements.
 //
 // A side that is dry, or nearly, where the image of x would be gives its part up to the other:
-//     w_A = 1 - w_B(x) S(2 P_B/P_A),   P_K = Σ_{images of K near x} W ω.
+//     w_A = 1 - w_B(x) S(2 P_B/P_A),   P_K = Σ_{images of K near x} W,
+// as the images stood when the lists were made (without ω, which goes on to change: a restart makes the same lists).
 //
 // In the plane. In space edges are left to sight (visibility.hpp).
 #pragma once
@@ -49,7 +50,7 @@ class EdgeShares {
 
     // Whose images take part: anew for every list, ghosts ascending, then weigh().
     void clear();
-    void add(std::uint32_t ghost, int patch, const Vec<D>& normal, const Vec<D>& image, double volume);
+    void add(std::uint32_t ghost, int patch, const Vec<D>& normal, const Vec<D>& image);
     // How much water the two sides have there, as things stand.
     void weigh();
 
@@ -65,14 +66,10 @@ class EdgeShares {
     bool seen_through(std::size_t ghost, int patch) const;
 
   private:
-    struct Image {
-        Vec<D> x;
-        double volume;
-    };
     double reach_ = 0;
     std::vector<SharedEdge<D>> edges_;
     std::vector<Share> shares_;
-    std::vector<Image> images_;  // of the shares
+    std::vector<Vec<D>> images_;  // of the shares
 };
 
 extern template struct SharedEdge<2>;

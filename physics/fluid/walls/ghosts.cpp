@@ -87,7 +87,7 @@ void GhostWalls<D>::find_shares(const Particles<D>& particles) {
         if (ghosts[g].panel < 0) continue;
         const auto panel = std::size_t(ghosts[g].panel);
         shares.add(std::uint32_t(g), patch[panel], panels.normal[panel],
-                   mirror(before_wall(particles, ghosts[g]), ghosts[g]).image, particles.volume[ghosts[g].parent]);
+                   mirror(before_wall(particles, ghosts[g]), ghosts[g]).image);
     }
     shares.weigh();
 }
