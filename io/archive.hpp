@@ -41,12 +41,9 @@ concept Sequence = requires(T& values) {
 
 enum class Mark : char { plain = 'p', sequence = 'v', list = 'l', section = 's' };
 
-// In front of every field.
-struct Head {
-    Mark mark;
-    std::uint32_t size;  // of a plain field or of an entry [bytes]
-    std::uint64_t count;
-};
+// May have bytes between its fields, which have no value.
+template <class T>
+concept WithGaps = std::is_class_v<T> && !FixedMatrix<T>;
 
 }  // namespace archive_kinds
 
@@ -65,6 +62,20 @@ class ArchiveWriter {
 
   private:
     void append(const void* from, std::size_t size) { bytes_.append(static_cast<const char*>(from), size); }
+    // Gaps become zero, so that equal states are equal bytes.
+    template <class T>
+    void append_plain(const T& field) {
+        if constexpr (archive_kinds::WithGaps<T>) {
+            T copy = field;
+#if __has_builtin(__builtin_clear_padding)
+            __builtin_clear_padding(&copy);
+#endif
+            append(&copy, sizeof copy);
+        } else {
+            append(&field, sizeof field);
+        }
+    }
+    // In front of every field: its kind, its size or that of an entry [bytes], how many there are.
     void head(archive_kinds::Mark mark, std::size_t size, std::size_t count) {
         const auto width = std::uint32_t(size);
         const auto entries = std::uint64_t(count);
@@ -79,12 +90,15 @@ class ArchiveWriter {
             field.archive(*this);
         } else if constexpr (Plain<T>) {
             head(Mark::plain, sizeof(T), 1);
-            append(&field, sizeof(T));
+            append_plain(field);
         } else if constexpr (Sequence<T>) {
             using Entry = typename T::value_type;
             if constexpr (Plain<Entry> && !Part<Entry, ArchiveWriter>) {
                 head(Mark::sequence, sizeof(Entry), field.size());
-                append(field.data(), field.size() * sizeof(Entry));
+                if constexpr (WithGaps<Entry>)
+                    for (Entry& entry : field) append_plain(entry);
+                else
+                    append(field.data(), field.size() * sizeof(Entry));
             } else {
                 head(Mark::list, 0, field.size());
                 for (Entry& entry : field) put(entry);
@@ -100,7 +114,9 @@ class ArchiveWriter {
 // Reads what an ArchiveWriter has written; throws ArchiveError for anything else.
 class ArchiveReader {
   public:
+    // The bytes are read where they are, hence not those of a text that is about to go.
     explicit ArchiveReader(std::string_view bytes) : rest_(bytes) {}
+    explicit ArchiveReader(std::string&&) = delete;
     static constexpr bool reads() { return true; }
     template <class... Fields>
     void operator()(Fields&... fields) {

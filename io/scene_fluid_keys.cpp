@@ -22,8 +22,8 @@ constexpr auto sections = std::to_array<SceneSection>({
     {"fluid.polygon", true, false,
      "Water inside a polygon, in two dimensions: the points of a lattice of Δx that lie inside."},
     {"fluid.disc", true, false, "Water inside a circle, in two dimensions: a drop, a round tank."},
-    {"fluid.sphere", true, false, "Water inside a sphere, in three dimensions."},
-    {"fluid.volume", true, false, "Water inside a watertight STL surface, in three dimensions."},
+    {"fluid.sphere", true, false, "Water inside a sphere, in three dimensions.", false, true},
+    {"fluid.volume", true, false, "Water inside a watertight STL surface, in three dimensions.", false, true},
     {"fluid.initial", false, false, "How the water starts, as formulas of `x`, `y`, `z` and the constants."},
     {"fluid.central_force", false, false,
      "An acceleration -rate² (x - centre) beside gravity. Its energy belongs to the potential energy."},
@@ -32,15 +32,16 @@ constexpr auto sections = std::to_array<SceneSection>({
      "polyline with the fluid on the left of the direction of travel, so a closed tank is walked counter-clockwise; in "
      "three dimensions a flat face, its corners counter-clockwise as seen from the fluid."},
     {"wall.box", false, false, "A box, its sides left, right (x), front, back (y, in three dimensions), bottom, top."},
-    {"wall.rectangle", false, false, "A rectangle or parallelogram in three dimensions."},
+    {"wall.rectangle", false, false, "A rectangle or parallelogram in three dimensions.", false, true},
     {"wall.extrusion", false, false, "A polyline drawn along an axis, in three dimensions."},
     {"wall.circle", false, false, "A circle of straight panels, in two dimensions."},
-    {"wall.sphere", false, false, "A sphere of triangles."},
-    {"wall.cylinder", false, false, "A cylinder of triangles, with flat ends."},
+    {"wall.sphere", false, false, "A sphere of triangles.", false, true},
+    {"wall.cylinder", false, false, "A cylinder of triangles, with flat ends.", false, true},
     {"wall.stl", false, false,
      "A surface of triangles from an STL file, ASCII or binary: scaled, turned, moved, in this order. Triangles "
      "without area, twice the same, looking opposite ways or cutting through each other are refused, with their "
-     "places."},
+     "places.",
+     false, true},
     {"wall.motion", false, false,
      "The wall moves by itself. Laws of a translation and of a rotation, and a table, add up; all are counted from "
      "t = 0, when the wall is where it is drawn."},

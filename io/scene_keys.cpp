@@ -11,7 +11,8 @@ namespace {
 
 using K = KeyKind;
 
-std::string kind_text(const SceneKey& key) {
+// What SCENES.md says that a key takes. A direction to turn about has three coordinates wherever there is one.
+std::string kind_text(const SceneKey& key, bool in_space) {
     switch (key.kind) {
         case K::number:
             return "number";
@@ -24,7 +25,7 @@ std::string kind_text(const SceneKey& key) {
         case K::choice:
             return "text";
         case K::point:
-            return "[x, y]";
+            return in_space || key.name == "axis" ? "[x, y, z]" : "[x, y]";
         case K::counts:
             return "[nx, ny]";
         case K::formula:
@@ -127,7 +128,7 @@ std::string expectation(const SceneKey& key) {
             text = "a list of pairs [[a, b], …]";
             break;
         default:
-            text = kind_text(key);
+            text = kind_text(key, false);
     }
     const std::string range = key.range.text();
     if (key.range.low == key.range.high)
@@ -154,7 +155,7 @@ std::string section_markdown(const SceneSection& section, const KeyTable& table)
     for (const SceneKey& key : table.keys) {
         if (key.section != section.name) continue;
         const std::string range = key.kind == K::choice ? choices_text(key.choices, "`") : key.range.text();
-        text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, kind_text(key),
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, kind_text(key, section.in_space),
                             key.unit.empty() ? "–" : key.unit, range == "any" ? "–" : range,
                             key.required ? "**required**" : key.standard, key.meaning);
     }

@@ -53,6 +53,7 @@ struct SceneSection {
     bool required;          // of every scene
     std::string_view meaning;
     bool free_names = false;  // the names of its keys are the writer's; each takes a number or a formula
+    bool in_space = false;    // of three-dimensional scenes alone
 };
 
 // What a kind of file may hold: scenes here, studies in io/study_file.hpp.

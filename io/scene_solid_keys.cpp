@@ -30,7 +30,8 @@ constexpr auto sections = std::to_array<SceneSection>({
      "of the critical value. The stiffness is that of the body at rest, carried along by its rotation, so that a body "
      "that turns is not braked by it."},
     {"solid.cords", true, false,
-     "Parallel cords in a layer of rubber (neo_hookean or mooney_rivlin), in three dimensions: a ply of a tyre."},
+     "Parallel cords in a layer of rubber (neo_hookean or mooney_rivlin), in three dimensions: a ply of a tyre.", false,
+     true},
     {"solid.motion", true, false,
      "Nodes that are displaced along a direction as prescribed: by the sum of what is given."},
     {"solid.pressure", true, false,

@@ -1,6 +1,6 @@
 // Writes the input deck with which CalculiX (G. Dhondt's ccx) computes the same body on the same mesh.
 //
-// What is the same and what is not (measured in benchmarks/solid/calculix): with *STEP, NLGEOM the law *ELASTIC is
+// What is the same and what is not (measured in benchmarks/solid/README.md): with *STEP, NLGEOM the law *ELASTIC is
 // linear between Green–Lagrange strain and second Piola–Kirchhoff stress, hence Saint Venant–Kirchhoff; rubber has the
 // same energies, D1 = 2/κ. Elements of 20 and of 8 plane nodes are integrated with 2^D points as here (C3D20R, CPE8R,
 // CPS8R), or with 3^D (C3D20); linear ones have incompatible modes where enhanced strains are asked for (C3D8I), which

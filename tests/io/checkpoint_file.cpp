@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "io/archive.hpp"
@@ -77,6 +79,10 @@ std::string error_of(const std::filesystem::path& file) {
 
 }  // namespace
 
+// It reads the bytes where they are.
+static_assert(std::is_constructible_v<io::ArchiveReader, const std::string&> &&
+              !std::is_constructible_v<io::ArchiveReader, std::string>);
+
 TEST_CASE("an archive gives back what it was given") {
     Outer written = example(), read;
     const std::string bytes = bytes_of(written);
@@ -94,6 +100,39 @@ TEST_CASE("an archive gives back what it was given") {
     CHECK(read.parts == written.parts);
     CHECK(read.lists == written.lists);
     CHECK(read.places[0] == fluid::Vec3(7, 8, 9));
+}
+
+TEST_CASE("bytes between the fields of a struct are the same, whatever was there") {
+    struct Gaps {
+        char small;
+        double large;
+        char last;
+    };
+    static_assert(sizeof(Gaps) > 2 * sizeof(char) + sizeof(double));
+    const auto bytes = [](int before) {
+        Gaps one;
+        std::memset(static_cast<void*>(&one), before, sizeof one);
+        one.small = 1;
+        one.large = 2;
+        one.last = 3;
+        std::vector<Gaps> many(2);
+        std::memcpy(static_cast<void*>(&many[1]), &one, sizeof one);
+        io::ArchiveWriter fields;
+        fields(one, many);
+        return fields.take();
+    };
+    CHECK(bytes(0x55) == bytes(0xAA));
+    const std::string written = bytes(0x55);
+    Gaps one{};
+    std::vector<Gaps> many;
+    io::ArchiveReader fields(written);
+    fields(one, many);
+    REQUIRE(many.size() == 2);
+    for (const Gaps& read : {one, many[1]}) {
+        CHECK(read.small == 1);
+        CHECK(read.large == 2);
+        CHECK(read.last == 3);
+    }
 }
 
 TEST_CASE("an archive of other fields is refused by the name of its part") {
