@@ -47,8 +47,8 @@ void EdgeShares<D>::find_edges(const Panels<D>& panels, const std::vector<int>& 
     if constexpr (D == 2) {
         for (const Joint<2>& joint : panels.joints) {
             const auto a = std::size_t(joint.panel[0]), b = std::size_t(joint.panel[1]);
-            if (patch[a] == patch[b] || panels.height(a, panels.centroid[b]) >= 0 ||
-                panels.normal[a].dot(panels.normal[b]) < -0.5 - 1e-9)
+            if (panels.panels[a].wet || panels.panels[b].wet || patch[a] == patch[b] ||
+                panels.height(a, panels.centroid[b]) >= 0 || panels.normal[a].dot(panels.normal[b]) < -0.5 - 1e-9)
                 continue;
             SharedEdge<2> edge{
                 .panel = joint.panel, .patch = {patch[a], patch[b]}, .vertex = joint.vertex, .softness = spacing};

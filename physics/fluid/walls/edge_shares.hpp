@@ -15,7 +15,9 @@
 //     w_A = 1 - w_B(x) S(2 P_B/P_A),   P_K = Σ_{images of K near x} W,
 // as the images stood when the lists were made (without ω, which goes on to change: a restart makes the same lists).
 //
-// In the plane. In space edges are left to sight (visibility.hpp).
+// In the plane, and at walls whose motion is prescribed. In space, and at elastic bodies, edges are left to sight
+// (visibility.hpp): with shares at the keel of an elastic wedge the energy conservative load left twice the energy at
+// the interface that its test allows.
 #pragma once
 #include <span>
 
