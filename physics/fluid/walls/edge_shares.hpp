@@ -16,8 +16,8 @@
 // as the images stood when the lists were made (without ω, which goes on to change: a restart makes the same lists).
 //
 // In the plane, and at walls whose motion is prescribed. In space, and at elastic bodies, edges are left to sight
-// (visibility.hpp): with shares at the keel of an elastic wedge the energy conservative load left twice the energy at
-// the interface that its test allows.
+// (visibility.hpp): with shares at its keel the energy conservative load of an elastic wedge (beam impact, Δx 3 cm)
+// left 0.26 % of the body's work at the interface, by sight 0.02 %. Why is not known.
 #pragma once
 #include <span>
 
